@@ -101,9 +101,8 @@ constexpr double kLeastConfirmation = 0.1;
 /** Least number of a scan's own patches for verification. */
 constexpr std::size_t kLeastOwnPatches = 12;
 
-/** A link connects its scans below this probability of being wrong ... */
-constexpr double kGoodBelow = 0.01;
-/** ... and contradicts the map above this probability. */
+/** A link connects its scans below kGoodBelow (ties.h), and contradicts the map above this
+ * probability of being wrong. */
 constexpr double kWrongAbove = 0.9;
 
 /** Resolution of link tests [voxels], about a third of the shift of points by the reduction. */

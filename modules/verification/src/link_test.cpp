@@ -5,6 +5,7 @@
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/verification/link_evidence.h>
+#include <pcl6d/verification/ties.h>
 
 #include <algorithm>
 #include <cmath>

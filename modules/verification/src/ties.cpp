@@ -172,8 +172,12 @@ private:
 /** Cuts contradicted parts of the map. */
 class Cutter {
 public:
-  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links)
-  : links_(links), evidence_(links), is_cut_(links.size(), false), at_(num_scans)
+  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links, double cut_from)
+  : links_(links)
+  , evidence_(links)
+  , cut_from_(cut_from)
+  , is_cut_(links.size(), false)
+  , at_(num_scans)
   {
     ties_.tied.assign(num_scans, false);
     ties_.cut_from.resize(num_scans);
@@ -334,7 +338,7 @@ private:
   bool
   cut(const Cut& worst)
   {
-    if (worst.probability < kGoodBelow)
+    if (worst.probability < cut_from_)
       return false;
     std::size_t contradicted = 0, patches = 0;
     for (const std::size_t k : worst.links) {
@@ -373,6 +377,7 @@ private:
 
   const std::vector<LinkCheck>& links_;
   CutEvidence evidence_;
+  double cut_from_; ///< least probability
   std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
@@ -385,11 +390,14 @@ private:
 } // namespace
 
 Ties
-tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
+tiesOf(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       double background,
+       double cut_from)
 {
   if (num_scans == 0)
     return {};
-  Cutter cutter(num_scans, links);
+  Cutter cutter(num_scans, links, cut_from);
   // Else ray tests are inconclusive, or too few links remain for a background.
   if (background <= kMostBackground && links.size() >= kLeastLinks) {
     cutter.cutParts();

@@ -24,7 +24,8 @@ constexpr std::size_t kLookEvery = 2;
 constexpr double kMuchContradicted = 0.12, kTimesUsual = 2;
 constexpr std::size_t kUsualMembers = 6;
 
-/** A wrong link rejects the pose if its ray test alone gives a larger probability. */
+/** A wrong link rejects the pose if its ray test alone gives a larger probability; and all links
+ * together reject an expected pose from this probability on: it is rather wrong than right. */
 constexpr double kElsewhere = 0.5;
 
 void
@@ -54,10 +55,12 @@ contradictionBy(const std::vector<LinkEvidence>& of_place,
 }
 
 /** Joint evidence of the links of a pose: a cut in a map with good links elsewhere.
- * \param[in] links of the map, to estimate the usual share of contradictions */
+ * \param[in] links of the map, to estimate the usual share of contradictions
+ * \param[in] cut_from least probability of a wrong pose that rejects it */
 Rejection
 contradictionByAll(const std::vector<LinkEvidence>& of_place,
-                   const std::vector<LinkEvidence>& links)
+                   const std::vector<LinkEvidence>& links,
+                   double cut_from)
 {
   const double background = contradictionBackground(links);
   const std::size_t scan = of_place.size(), rest = scan + 1; // the others come first
@@ -76,7 +79,7 @@ contradictionByAll(const std::vector<LinkEvidence>& of_place,
     all.patches += link.sight.patches;
     all.contradicted += link.sight.contradicted_patches;
   }
-  return verification::tiesOf(rest + 1, checks, background).cut_from[scan];
+  return verification::tiesOf(rest + 1, checks, background, cut_from).cut_from[scan];
 }
 
 std::vector<LinkEvidence>
@@ -105,8 +108,10 @@ rejectionBy(std::vector<LinkEvidence> of_place,
     return contradiction;
   if (!is_held)
     return RejectReason::kNoConsistentLink;
-  return needs == PlaceNeeds::kConnected ? contradictionByAll(of_place, links)
-                                         : Rejection();
+  return contradictionByAll(of_place,
+                            links,
+                            needs == PlaceNeeds::kConnected ? verification::kGoodBelow
+                                                            : kElsewhere);
 }
 } // namespace
 

@@ -36,8 +36,8 @@ struct GuessedPlace {
 enum class PlaceNeeds {
   kConnected, ///< for a pose found anywhere: confirmed by scans,
               ///< contradicted by no scan and not by all together
-  kConfirmed, ///< for a pose predicted by odometry: confirmed
-              ///< by scans, contradicted by no scan
+  kConfirmed, ///< for a pose predicted by odometry: confirmed by scans, contradicted
+              ///< by no scan, and all together do not call it rather wrong than right
   /** as kConfirmed, but each contradicted isolated object counts once (withThingsOnce()): for a
    * pose as near to the prediction as odometry always is */
   kConfirmedAsExpected,

@@ -18,13 +18,21 @@ struct Ties {
   std::vector<bool> cut;           ///< for each link: rejected together with the cut
 };
 
+/** Links connect their scans below this probability of a wrong pose, a single link as well as all
+ * links between two parts of a map together. */
+constexpr double kGoodBelow = 0.01;
+
 /** \brief Connects scans by consistent and unverified links, except the links between two parts of
  * a map that jointly contradict their relative pose: after a jump of the odometry to a similar
  * place, a few links across the jump may seem consistent. Tested parts: consecutive scans, because
  * an odometry error displaces all later scans, and parts connected by a single link.
- * \param[in] background of the map */
+ * \param[in] background of the map
+ * \param[in] cut_from least probability of a wrong place at which a part is cut */
 Ties
-tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);
+tiesOf(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       double background,
+       double cut_from = kGoodBelow);
 
 } // namespace verification
 } // namespace pcl6d

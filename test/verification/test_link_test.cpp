@@ -176,6 +176,16 @@ TEST(ContradictionBackground, IsNotLearnedFromOneLinkOrFromWrongOnes)
       << "rays that are no judges";
 }
 
+TEST(ContradictionBackground, IsOfLinksThatAgree)
+{
+  // Three scans, one at a wrong place: the better half of the links has a wrong one.
+  EXPECT_LT(contradictionBackground({seen(0, 520), seen(85, 440), seen(95, 430)}),
+            kBackground);
+  // An old scanner in a corridor with glass: all links are contradicted alike.
+  EXPECT_GT(contradictionBackground({seen(22, 289), seen(31, 324), seen(50, 155)}),
+            0.05);
+}
+
 TEST(ContradictionBackground, IsNeverNone)
 {
   EXPECT_EQ(contradictionBackground(std::vector<LinkEvidence>(100, seen(0, 100000))),

@@ -6,6 +6,8 @@
 
 #include <pcl6d/verification/map_verifier.h>
 
+#include <cmath>
+#include <cstdint>
 #include <deque>
 #include <set>
 #include <vector>
@@ -160,6 +162,23 @@ TEST(MapVerifier, DoesNotTieScansThatAbstainAndShareNothing)
   EXPECT_EQ(looseOf(map), std::set<std::size_t>{1});
 }
 
+TEST(MapVerifier, DoubtsOneOfThreeScansAtAWrongPlace)
+{
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    VerifiedScans scans;
+    Random random(seed);
+    for (std::size_t i = 0; i < 3; ++i)
+      scans.add(PillarRoom().scan(roomPoses()[i], random, 0.04));
+    Poses poses = roomPoses();
+    poses.resize(3);
+    EXPECT_EQ(verifiedOf(scans, poses).trust, MapTrust::kGood);
+    const double angle = random.uniform(0, 6.2832), away = random.uniform(0.5, 3);
+    poses[2] = shifted(poses[2], {away * std::cos(angle), away * std::sin(angle), 0});
+    EXPECT_EQ(verifiedOf(scans, poses).trust, MapTrust::kDoubtful) << away << " m";
+  }
+}
+
 TEST(MapVerifier, TellsScansOfOneNameApart)
 {
   VerifiedScans scans;
@@ -167,7 +186,7 @@ TEST(MapVerifier, TellsScansOfOneNameApart)
   for (std::size_t i = 0; i < 3; ++i)
     scans.add(PillarRoom().scan(roomPoses()[i], random, 0.04));
   Poses poses = {
-      roomPoses()[0], roomPoses()[1], shifted(roomPoses()[2], {0.6, 0.7, 0.9})};
+      roomPoses()[0], roomPoses()[1], shifted(roomPoses()[2], {0.6, 0.7, 0.3})};
   const MapVerification map =
       MapVerifier(scans.all(), {"same", "same", "same"}).verify(poses);
   ASSERT_FALSE(map.doubts.empty());

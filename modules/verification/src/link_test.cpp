@@ -88,33 +88,6 @@ rejectionOf(const LinkEvidence& evidence, double rays, double surfaces)
 }
 } // namespace
 
-double
-contradictionBackground(const std::vector<LinkEvidence>& links)
-{
-  std::vector<const SightEvidence*> sights;
-  for (const LinkEvidence& link : links)
-    if (link.sight.patches > 0)
-      sights.push_back(&link.sight);
-  std::sort(
-      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
-        return a->contradicted_patches * b->patches <
-               b->contradicted_patches * a->patches;
-      });
-  if (sights.size() < 2) // a single link gives no background
-    return kBackground;
-  // The patches of a link share their causes: each counts less in a link with many.
-  double contradicted = kBackground * kBackgroundPrecision, all = kBackgroundPrecision;
-  for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
-    const auto n = static_cast<double>(sights[i]->patches);
-    const double weight = kBackgroundPrecision / (kBackgroundPrecision + n);
-    contradicted += weight * static_cast<double>(sights[i]->contradicted_patches);
-    all += weight * n;
-  }
-  const double background = contradicted / all;
-  return background > kNoBackground ? kBackground
-                                    : std::max(background, kLeastBackground);
-}
-
 namespace verification {
 RaysAgainst
 raysAgainst(std::size_t contradicted, std::size_t patches, const RightLinks& usual)
@@ -148,6 +121,50 @@ probabilityOf(const RaysAgainst& against)
   return pcl6d::probabilityOf(logRatioOf(against));
 }
 } // namespace verification
+
+namespace {
+/** \return the links with common patches, the least contradicted first */
+std::vector<const SightEvidence*>
+leastContradictedFirst(const std::vector<LinkEvidence>& links)
+{
+  std::vector<const SightEvidence*> sights;
+  for (const LinkEvidence& link : links)
+    if (link.sight.patches > 0)
+      sights.push_back(&link.sight);
+  std::sort(
+      sights.begin(), sights.end(), [](const SightEvidence* a, const SightEvidence* b) {
+        return a->contradicted_patches * b->patches <
+               b->contradicted_patches * a->patches;
+      });
+  return sights;
+}
+} // namespace
+
+double
+contradictionBackground(const std::vector<LinkEvidence>& links)
+{
+  const std::vector<const SightEvidence*> sights = leastContradictedFirst(links);
+  if (sights.size() < 2) // a single link gives no background
+    return kBackground;
+  double contradicted = kBackground * kBackgroundPrecision, all = kBackgroundPrecision;
+  const auto background = [&] { return std::max(contradicted / all, kLeastBackground); };
+  for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
+    // Links wrong by the background of better links are no right links: of three scans, one at a
+    // wrong place, the better half has one of them.
+    if (i > 0 && probabilityOf(raysAgainst(
+                     sights[i]->contradicted_patches,
+                     sights[i]->patches,
+                     {background(), kLeastBackground, kBackgroundPrecision})) >
+                     kWrongAbove)
+      break;
+    // The patches of a link share their causes: each counts less in a link with many.
+    const auto n = static_cast<double>(sights[i]->patches);
+    const double weight = kBackgroundPrecision / (kBackgroundPrecision + n);
+    contradicted += weight * static_cast<double>(sights[i]->contradicted_patches);
+    all += weight * n;
+  }
+  return background() > kNoBackground ? kBackground : background();
+}
 
 LinkTestResult
 testLink(const LinkEvidence& evidence, double background)

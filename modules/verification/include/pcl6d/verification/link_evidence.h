@@ -83,8 +83,9 @@ contradictedPoints(const VerifiedScan& from,
                    const Eigen::Isometry3d& T_from_at);
 
 /** \brief The share of patches contradicted in right links, estimated from the better half of a
- * run's links, because most links of most runs are right. At least 0.002. Above 0.05 ray tests are
- * inconclusive in this run; a better half with more than 0.12 is wrong.
+ * run's links, because most links of most runs are right, up to the first link that is wrong by the
+ * background of better ones. At least 0.002. Above 0.05 ray tests are inconclusive in this run; a
+ * better half with more than 0.12 is wrong.
  * \param[in] links if fewer than two, or wrong: the average of scans is returned */
 double
 contradictionBackground(const std::vector<LinkEvidence>& links);

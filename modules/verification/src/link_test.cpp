@@ -147,15 +147,17 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
   if (sights.size() < 2) // a single link gives no background
     return kBackground;
   double contradicted = kBackground * kBackgroundPrecision, all = kBackgroundPrecision;
-  const auto background = [&] { return std::max(contradicted / all, kLeastBackground); };
+  const auto background = [&] {
+    return std::max(contradicted / all, kLeastBackground);
+  };
   for (std::size_t i = 0; i < (sights.size() + 1) / 2; ++i) {
     // Links wrong by the background of better links are no right links: of three scans, one at a
     // wrong place, the better half has one of them.
-    if (i > 0 && probabilityOf(raysAgainst(
-                     sights[i]->contradicted_patches,
-                     sights[i]->patches,
-                     {background(), kLeastBackground, kBackgroundPrecision})) >
-                     kWrongAbove)
+    if (i > 0 &&
+        probabilityOf(raysAgainst(
+            sights[i]->contradicted_patches,
+            sights[i]->patches,
+            {background(), kLeastBackground, kBackgroundPrecision})) > kWrongAbove)
       break;
     // The patches of a link share their causes: each counts less in a link with many.
     const auto n = static_cast<double>(sights[i]->patches);

@@ -377,7 +377,7 @@ private:
 
   const std::vector<LinkCheck>& links_;
   CutEvidence evidence_;
-  double cut_from_; ///< least probability
+  double cut_from_;                            ///< least probability
   std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan

@@ -37,7 +37,7 @@ struct RejectedMatch {
 
 /** \return whether to search for the scan far from its prediction, too. A bounded recovery does not,
  * if a match agrees with the odometry, no link contradicts it, and rays confirm no other link
- * either: the same rays would judge every pose found, and a long search takes longer than all
+ * either: the same rays would test every pose found, and a long search takes longer than all
  * matches of a short run */
 PCL6D_EXPORTS bool // exported for its test
 isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);

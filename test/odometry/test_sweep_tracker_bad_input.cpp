@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -106,6 +107,33 @@ TEST(SweepTrackerBadInput, AGapOfTenSweepsIsBridged)
   for (std::size_t i = 1; i < tracked.size(); ++i)
     EXPECT_EQ(tracked[i].status, SweepStatus::kTracked) << i;
   EXPECT_LT(stepError(tracked, 19, 1.9, 29, 3.9), 0.1);
+}
+
+TEST(SweepTrackerBadInput, SomeGapsWithoutStampsAreBridgedOrNamed)
+{
+  // In three of the five, surfaces fit about as well where the drive would be without a gap.
+  CorridorSweeps corridor;
+  const auto all = corridor.drive(60);
+  std::size_t silently_wrong = 0;
+  for (const std::size_t gap : {15U, 20U, 25U, 30U, 35U}) {
+    std::vector<Sweep> sweeps;
+    for (std::size_t i = 0; i < gap + 22; ++i)
+      if (i < gap || i >= gap + 10) {
+        sweeps.push_back(all[i]);
+        sweeps.back().stamp.reset();
+        sweeps.back().times.clear();
+      }
+    const auto tracked = trackAll(sweeps);
+    const bool is_named =
+        std::any_of(tracked.begin() + 1, tracked.end(), [](const TrackedSweep& sweep) {
+          return sweep.status != SweepStatus::kTracked;
+        });
+    const double before = kSweepTime * static_cast<double>(gap - 1),
+                 last = kSweepTime * static_cast<double>(gap + 21);
+    const double error = stepError(tracked, gap - 1, before, gap + 11, last);
+    silently_wrong += is_named || error < 0.3 ? 0 : 1;
+  }
+  EXPECT_LE(silently_wrong, 3U);
 }
 
 TEST(SweepTrackerBadInput, AfterAJumpAMapBeginsAnew)

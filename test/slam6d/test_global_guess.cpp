@@ -157,19 +157,28 @@ TEST(GlobalGuess, OneScanIsItsOwnMap)
 
 TEST(GlobalGuess, CancelledItHasRegisteredNothingAndCanGoOn)
 {
-  Slam6D slam(globally());
-  for (const auto& scan : turned().scans)
-    slam.addScan(scan, kIdentity);
-  bool is_cancelled = false;
-  slam.setProgressCallback([&](const pcl6d::Progress&) {
-    if (!is_cancelled)
-      slam.cancel();
-    is_cancelled = true;
-  });
-  EXPECT_FALSE(slam.optimize());
-  EXPECT_EQ(slam.result().count(ScanState::kPending), 4u);
-  EXPECT_TRUE(slam.optimize());
-  expectTruth(slam.result(), {0, 1, 2, 3});
+  const Slam6DResult undisturbed = registered(inOrder({0, 1, 2, 3}));
+  for (const std::string stage : {"reducing", "preparing", "comparing"}) {
+    SCOPED_TRACE(stage);
+    Slam6D slam(globally());
+    for (const auto& scan : turned().scans)
+      slam.addScan(scan, kIdentity);
+    bool is_cancelled = false;
+    slam.setProgressCallback([&](const pcl6d::Progress& now) {
+      if (!is_cancelled && now.stage == stage) {
+        slam.cancel();
+        is_cancelled = true;
+      }
+    });
+    EXPECT_FALSE(slam.optimize());
+    EXPECT_TRUE(is_cancelled);
+    EXPECT_EQ(slam.result().count(ScanState::kPending), 4u);
+    EXPECT_TRUE(slam.optimize());
+    expectTruth(slam.result(), {0, 1, 2, 3});
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_TRUE(sameBits(slam.result().scans[i].T_world_scan,
+                           undisturbed.scans[i].T_world_scan));
+  }
 }
 
 TEST(GlobalGuess, ScansOfAnEarlierRunKeepTheirPlaces)

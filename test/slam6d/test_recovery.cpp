@@ -3,6 +3,7 @@
 // turns, scans of elsewhere and pieces that meet the map again later, with exact truth.
 #include "corridor_drive.h"
 #include "recovery/motion_guesses.h"
+#include "recovery/recovery.h"
 #include "registered_run.h"
 #include "support/points.h"
 
@@ -166,6 +167,26 @@ TEST(Recovery, BoundedComparesFourScansOfAPiece)
   };
   EXPECT_EQ(comparedBy(RecoveryEffort::kBounded), 4u * 6u);
   EXPECT_EQ(comparedBy(RecoveryEffort::kThorough), 6u * 6u);
+}
+
+TEST(Recovery, BoundedDoesNotSearchFarWhereRaysConfirmNoLinkAtAll)
+{
+  using pcl6d::slam6d::isLongSearchUseful;
+  using pcl6d::slam6d::RayTest;
+  using pcl6d::slam6d::RejectedMatch;
+  RejectedMatch as_others;
+  as_others.is_unconfirmed = as_others.is_expected = true;
+  as_others.rays = RayTest::kFailed;
+  EXPECT_FALSE(isLongSearchUseful(as_others, RecoveryEffort::kBounded));
+  EXPECT_TRUE(isLongSearchUseful(as_others, RecoveryEffort::kThorough));
+  std::vector<RejectedMatch> others(5, as_others);
+  others[0].is_unconfirmed = false; // not matched at all
+  others[1].is_contradicted = true;
+  others[2].is_expected = false;
+  others[3].rays = RayTest::kUnproven;
+  others[4].rays = RayTest::kConfirming;
+  for (const RejectedMatch& other : others)
+    EXPECT_TRUE(isLongSearchUseful(other, RecoveryEffort::kBounded));
 }
 
 TEST(Recovery, LosesNothingBehindAScanOfElsewhere)

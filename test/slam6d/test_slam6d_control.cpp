@@ -6,6 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <vector>
+
 using pcl6d::ScanResult;
 using pcl6d::ScanState;
 using pcl6d::Slam6D;
@@ -104,6 +109,79 @@ TEST(Slam6DCancel, OfTheLastScanDoesNotStopTheNextRun)
   expectWhole(slam.result());
 }
 
+namespace {
+/** Cancels a run at a report, and counts the later reports. */
+struct CancelAt {
+  std::string stage;
+  std::size_t done;
+  std::size_t later = 0;
+  bool is_cancelled = false;
+
+  void
+  watch(Slam6D& slam)
+  {
+    slam.setProgressCallback([this, &slam](const pcl6d::Progress& now) {
+      later += is_cancelled ? 1 : 0;
+      if (!is_cancelled && now.stage == stage && now.done == done) {
+        is_cancelled = true;
+        slam.cancel();
+      }
+    });
+  }
+};
+} // namespace
+
+TEST(Slam6DCancel, StopsWhileScansArePrepared)
+{
+  for (const unsigned int num_threads : {1u, 2u, 4u})
+    for (const CancelAt& wanted : {CancelAt{"reducing", 1},
+                                   CancelAt{"reducing", 6},
+                                   CancelAt{"preparing", num_threads},
+                                   CancelAt{"preparing", 6}}) {
+      SCOPED_TRACE(wanted.stage + ' ' + std::to_string(wanted.done) + ", threads " +
+                   std::to_string(num_threads));
+      Slam6DOptions options = matchingAlone();
+      options.num_threads = num_threads;
+      Slam6D slam(options);
+      add(slam, 0, 6);
+      CancelAt cancel = wanted;
+      cancel.watch(slam);
+      EXPECT_FALSE(slam.optimize());
+      EXPECT_TRUE(cancel.is_cancelled);
+      EXPECT_EQ(cancel.later, 0u) << "no further scan is prepared";
+      for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(slam.result().scans[i].state, ScanState::kPending);
+        EXPECT_TRUE(slam.result().scans[i].T_world_scan.isApprox(
+            sampleRun().odometry[i], 1e-12));
+      }
+      std::vector<std::string> seen;
+      slam.setProgressCallback([&](const pcl6d::Progress& now) {
+        seen.push_back(now.stage + ' ' + std::to_string(now.done));
+      });
+      EXPECT_TRUE(slam.optimize());
+      expectWhole(slam.result());
+      const std::string again = cancel.stage + ' ' + std::to_string(cancel.done);
+      EXPECT_EQ(std::count(seen.begin(), seen.end(), again), 0)
+          << "prepared scans are kept";
+    }
+}
+
+TEST(Slam6DCancel, OfAnotherThreadStopsWhileScansArePrepared)
+{
+  Slam6D slam(matchingAlone());
+  add(slam, 0, 6);
+  std::size_t reports = 0;
+  slam.setProgressCallback([&](const pcl6d::Progress&) {
+    ++reports;
+    std::thread([&slam] { slam.cancel(); }).join();
+  });
+  EXPECT_FALSE(slam.optimize());
+  EXPECT_EQ(reports, 1u);
+  slam.setProgressCallback({});
+  EXPECT_TRUE(slam.optimize());
+  expectWhole(slam.result());
+}
+
 TEST(Slam6D, TakesScansOneAfterTheOther)
 {
   Slam6D slam(matchingAlone());
@@ -130,14 +208,20 @@ TEST(Slam6DProgress, CountsEveryScan)
   Slam6D slam(matchingAlone());
   add(slam, 0, 6);
   std::vector<pcl6d::Progress> seen;
-  slam.setProgressCallback([&](const pcl6d::Progress& p) { seen.push_back(p); });
+  std::vector<pcl6d::Progress> matched;
+  slam.setProgressCallback([&](const pcl6d::Progress& p) {
+    (p.stage == "matching" ? matched : seen).push_back(p);
+  });
   slam.optimize();
-  ASSERT_EQ(seen.size(), 6u);
+  ASSERT_EQ(matched.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(seen[i].stage, "matching");
-    EXPECT_EQ(seen[i].done, i + 1);
-    EXPECT_EQ(seen[i].total, 6u);
+    EXPECT_EQ(matched[i].done, i + 1);
+    EXPECT_EQ(matched[i].total, 6u);
   }
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.back().stage, "preparing");
+  EXPECT_EQ(seen.back().done, 6u);
+  EXPECT_EQ(seen.back().total, 6u);
 }
 
 TEST(Slam6DObserver, SeesEachScanAsItIsInTheResult)

@@ -45,7 +45,9 @@ struct SweepMatch {
   Matrix6 begin_covariance = Matrix6::Zero(); ///< about `centre` of the prior
   Matrix6 end_information = Matrix6::Zero();  ///< information of the end,
                                               ///< about `centre`
-  int free_directions = 0;                    ///< of the pose, not fixed by a surface
+  double distortion = 0;   ///< [m] of points without times by an unexpected turn
+  bool is_further = false; ///< matched further along the way: sweeps seem to be missing
+  int free_directions = 0; ///< of the pose, not fixed by a surface
 };
 
 /** \brief Finds the poses at begin and end of a sweep that put its points on the surfaces of a map:

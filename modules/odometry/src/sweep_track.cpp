@@ -120,11 +120,10 @@ SweepTracker::Track::begin(const Current& now)
   last_end_ = now.begin + (now.is_timed ? now.length : 0);
   num_matched_ = 1;
   num_lost_ = 0;
-  usual_fit_ = usual_overlap_ = 0;
+  usual_fit_ = usual_overlap_ = usual_deviation_ = 0;
   map_ = emptyMap();
   addToMap(now, last_);
-  const double widest =
-      0.5 * std::ldexp(map_->options().voxel, map_->options().levels - 1);
+  const double widest = widestGate();
   translation_sq_ = widest * widest;
   rotation_sq_ = translation_sq_ / (range_ * range_);
   waiting_ = now;
@@ -193,7 +192,9 @@ SweepTracker::Track::accept(const Current& now,
   if (!now.is_timed) { // the velocity since the sweep before
     const double steps = (now.begin - last_begin_) / last_length_;
     motion.velocity =
-        twistFromMotion(last_.begin.inverse() * motion.begin) / std::max(steps, 0.1);
+        match.is_further ? last_.velocity
+                         : Twist(twistFromMotion(last_.begin.inverse() * motion.begin) /
+                                 std::max(steps, 0.1));
     motion.change.setZero();
   }
   const bool was_lost = num_lost_ > 0;

@@ -7,6 +7,7 @@
 #include <pcl6d/common/voxel_numbers.h>
 #include <pcl6d/odometry/sweep_tracker.h>
 
+#include <cmath>
 #include <optional>
 
 namespace pcl6d {
@@ -73,10 +74,31 @@ private:
   widen(const odometry::SweepMatch& found, odometry::SweepPrior& prior) const;
   odometry::SweepMatch
   bestMatch(const Current& now, const odometry::SweepPrior& prior) const;
+  bool
+  hasPause(const Current& now) const;
+  /** \return [m] half of the largest voxel */
+  double
+  widestGate() const
+  {
+    return 0.5 * std::ldexp(map_->options().voxel, map_->options().levels - 1);
+  }
+  void
+  tryFurther(const Current& now,
+             const odometry::SweepPrior& prior,
+             odometry::SweepPrior loose,
+             odometry::SweepMatch& best) const;
   odometry::SweepMatch
   match(const Current& now, const odometry::SweepPrior& prior, double gate) const;
   bool
   isMatched(const odometry::SweepMatch& match) const;
+  double
+  deviationOf(const odometry::SweepMatch& match) const;
+  bool
+  isElsewhere(const odometry::SweepMatch& match) const;
+  bool
+  isBetter(const odometry::SweepMatch& found,
+           const odometry::SweepMatch& best,
+           bool goes_on) const;
 
   TrackedSweep
   accept(const Current& now,
@@ -110,7 +132,7 @@ private:
   double last_begin_ = 0, last_end_ = 0, last_length_ = 1; ///< in the clock
   double translation_sq_ = 0,
          rotation_sq_ = 0; ///< of the deviations from constant velocity
-  double usual_fit_ = 0, usual_overlap_ = 0;
+  double usual_fit_ = 0, usual_overlap_ = 0, usual_deviation_ = 0;
   double correlation_ = 1;
 
   Eigen::Vector3d cut_at_ =

@@ -14,7 +14,8 @@
 namespace pcl6d::slam6d {
 
 namespace {
-/** Number of scans of each process sent at a time, a few megabytes each. */
+/** Number of scans of each process sent at a time, a few megabytes each: the bytes sent at a time
+ * must fit into memory. */
 constexpr std::size_t kSharedAtATime = 8;
 
 /** The covariances from matching treat pairs as independent, and are replaced. */
@@ -49,7 +50,8 @@ void
 RunVerification::prepare(const std::deque<IcpModel>& reduced,
                          const std::deque<MeasuredScan>& measured,
                          const IcpModel::Options& normals,
-                         double voxel)
+                         double voxel,
+                         const ProgressCallback& report)
 {
   surfaces_.resize(reduced.size());
   const auto surfacesOf = [&](std::size_t i) -> const IcpModel& {
@@ -57,9 +59,9 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
   };
   while (scans_.size() < reduced.size()) {
     const std::size_t done = scans_.size();
-    std::size_t count = reduced.size() - done;
-    if (sharing_) // the bytes sent at a time must fit into memory
-      count = std::min(count, kSharedAtATime * sharing_->numRanks());
+    const std::size_t at_a_time =
+        sharing_ ? kSharedAtATime * sharing_->numRanks() : threadCount(num_threads_);
+    const std::size_t count = std::min(reduced.size() - done, at_a_time);
     std::vector<VerifiedScan> ready(count);
     parallelFor(count, num_threads_, [&](std::size_t k) {
       if (reduced[done + k].normals().empty())
@@ -71,6 +73,7 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
       ready[k] = VerifiedScan(measured[done + k].points(), surfacesOf(done + k), voxel);
     });
     std::move(ready.begin(), ready.end(), std::back_inserter(scans_));
+    report({"preparing", scans_.size(), reduced.size()});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "matching/agreement.h"
 
+#include <pcl6d/common/progress.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/slam6d/slam6d_result.h>
@@ -28,16 +29,19 @@ public:
     sharing_ = sharing;
   }
 
-  /** Adds the new scans.
+  /** Adds the new scans. After an exception of the report, the next call continues.
    * \param[in] reduced, measured of all scans; reduced is kept by reference, measured is needed
    * only for scans owned by this process
    * \param[in] normals options of the normals, for reduced scans without normals
-   * \param[in] voxel [m] of the reduction */
+   * \param[in] voxel [m] of the reduction
+   * \param[in] report of the scans added so far; called after one scan of each thread, with several
+   * processes after a few scans of each process */
   void
   prepare(const std::deque<IcpModel>& reduced,
           const std::deque<MeasuredScan>& measured,
           const IcpModel::Options& normals,
-          double voxel);
+          double voxel,
+          const ProgressCallback& report);
 
   /** \return the scans added before */
   const std::deque<VerifiedScan>&

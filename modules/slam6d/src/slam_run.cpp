@@ -59,7 +59,7 @@ SlamRun::addScan(const Points& points, ScanResult scan, const std::string& given
       context.isFirst() ? inputsOf(before, place, points, scans.back()) : 0);
   try {
     if (state_.scans.isFull(state_.map.has_value()))
-      prepareWaiting(state_);
+      prepareWaiting(state_, nullptr);
   } catch (...) {
     scans.resize(place);
     state_.inputs.resize(place);

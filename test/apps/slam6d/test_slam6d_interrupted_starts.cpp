@@ -23,6 +23,7 @@ std::string
 nameOfStart(const testing::TestParamInfo<SignalledStart>& info)
 {
   std::string name = info.param.start;
+  name += info.param.stage;
   name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
   return name + (info.param.signal == SIGINT ? "Int" : "Term");
 }
@@ -65,6 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
     OfEachKind,
     InterruptedStart,
     testing::Values(SignalledStart{"auto", "matching", SIGINT, true},
+                    SignalledStart{"overlap", "preparing", SIGINT, true},
                     SignalledStart{"auto", "tracking", SIGTERM, false},
                     SignalledStart{"sequence", "tracking", SIGINT, false},
                     SignalledStart{"any-order", "comparing", SIGINT, true},

@@ -134,8 +134,10 @@ GlobalStage::join(const std::vector<std::size_t>& runs,
                   const ProgressCallback& report) const
 {
   std::deque<PlaceableScan> placeable;
-  for (const auto& scan : verified_)
+  for (const auto& scan : verified_) {
     placeable.emplace_back(scan);
+    report({"preparing", placeable.size(), verified_.size()});
+  }
   JoinOptions join;
   join.num_threads = options_.num_threads;
   join.progress = report;

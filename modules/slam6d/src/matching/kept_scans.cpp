@@ -102,6 +102,7 @@ KeptScans::keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans)
 void
 KeptScans::prepare(const ScanMatcher& matcher,
                    const Slam6DParameters& parameters,
+                   const ProgressCallback& report,
                    std::vector<ScanResult>& scans)
 {
   if (sharing_)
@@ -111,6 +112,8 @@ KeptScans::prepare(const ScanMatcher& matcher,
     Points gated = gateScan(unreduced_.front(), name, parameters);
     IcpModel model = matcher.prepare(reduceScan(gated, name, parameters, reduction()));
     keep(std::move(model), std::move(gated), scans);
+    if (report)
+      report({"reducing", reduced_.size(), names_.size()});
   }
 }
 

@@ -4,6 +4,7 @@
 #include "matching/agreement.h"
 #include "matching/scan_matcher.h"
 
+#include <pcl6d/common/progress.h>
 #include <pcl6d/common/work_sharing.h>
 
 #include <deque>
@@ -58,11 +59,14 @@ public:
   Slam6DParameters
   derive(const Slam6DOptions& options) const;
 
-  /** Prepares the waiting scans. \param[in,out] scans get their number of reduced points
+  /** Prepares the waiting scans. After an exception of the report, the next call continues.
+   * \param[in] report called after each scan, unless processes share the work; may be null
+   * \param[in,out] scans get their number of reduced points
    * \throws ComputeFailed, RankFailed */
   void
   prepare(const ScanMatcher& matcher,
           const Slam6DParameters& parameters,
+          const ProgressCallback& report,
           std::vector<ScanResult>& scans);
 
   /** Drops the measured points of a scan. */

@@ -67,13 +67,16 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
       scans[i - 1].initial_pose.inverse() * scan.initial_pose;
   const ScanResult predicted = scan;
   matcher_.setHoldsOpenDirections(hasGivenPoses(scans));
-  bool is_contradicted = false;
+  RejectedMatch rejected;
   const auto verify = [&](const ScanResult& found) {
     Rejection rejection;
     if (isDoubtful(found, i, scans))
       rejection = recovery_.rejectionOf(
           i, found.T_world_scan, scans, neededBy(found, i, scans));
-    is_contradicted = static_cast<bool>(rejection);
+    rejected.is_unconfirmed = static_cast<bool>(rejection);
+    rejected.is_contradicted =
+        rejection && rejection.reason != RejectReason::kNoConsistentLink;
+    rejected.is_expected = isExpected(found, i, scans);
     return rejection;
   };
   const auto carried = options_.order_first ? carriedOn(scans, i) : std::nullopt;
@@ -93,11 +96,12 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     scan.start = InitialGuess::kGlobal;
   if (!isRecovering(options_) || isRegistered(scan))
     return;
-  lookFor(i, scans);
+  rejected.rays = recovery_.testRays(i, scans);
+  lookFor(i, isLongSearchUseful(rejected, options_.recovery), scans);
   // Where rays cannot test, a match without a better alternative is kept: the verdict on the whole
   // map decides.
-  if (isRegistered(scan) || !is_contradicted || !isRegistered(scans[i - 1]) ||
-      recovery_.areRaysReliable(i, scans))
+  if (isRegistered(scan) || !rejected.is_unconfirmed || !isRegistered(scans[i - 1]) ||
+      rejected.rays == RayTest::kConfirming)
     return;
   scan = predicted;
   matcher_.passOver(scans_.measured()[i - 1], scans[i - 1].T_world_scan);
@@ -156,11 +160,13 @@ SequenceMatcher::isExpected(const ScanResult& found,
          matcher_.isSmallCorrection(found, predictedPose(scans, i));
 }
 
-/** Recovers a scan without a match at its prediction. */
+/** Recovers a scan without a match at its prediction.
+ * \param[in] is_long false: only where the odometry and the motion before lead */
 void
-SequenceMatcher::lookFor(std::size_t i, std::vector<ScanResult>& scans)
+SequenceMatcher::lookFor(std::size_t i, bool is_long, std::vector<ScanResult>& scans)
 {
-  const auto found = recovery_.find(i, scans);
+  const auto found =
+      is_long ? recovery_.find(i, scans) : recovery_.findByMotion(i, scans);
   if (!found)
     return;
   ScanResult scan = scans[i];

@@ -69,7 +69,7 @@ private:
              std::size_t scan,
              const std::vector<ScanResult>& scans) const;
   void
-  lookFor(std::size_t scan, std::vector<ScanResult>& scans);
+  lookFor(std::size_t scan, bool is_long, std::vector<ScanResult>& scans);
 
   const Slam6DOptions& options_;
   const KeptScans& scans_;

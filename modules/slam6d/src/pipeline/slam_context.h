@@ -11,7 +11,7 @@
 namespace pcl6d::slam6d {
 
 /** \brief Thrown by SlamContext::report() after Slam6D::cancel(), handled by the pipeline. A stage
- * that catches it must rethrow it. */
+ * that catches it must rethrow it, or end as kStopped. */
 struct Cancelled {};
 
 /** \brief The environment of a run, passed to every stage. */

@@ -74,6 +74,14 @@ isBounded(const Slam6DOptions& options)
   return options.recovery == RecoveryEffort::kBounded;
 }
 
+bool
+isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort)
+{
+  const bool is_right_as_others = match.is_unconfirmed && !match.is_contradicted &&
+                                  match.is_expected && match.rays == RayTest::kFailed;
+  return effort != RecoveryEffort::kBounded || !is_right_as_others;
+}
+
 Recovery::Recovery(const Slam6DOptions& options,
                    const std::deque<VerifiedScan>& verified)
 : options_(options), verified_(verified)
@@ -158,14 +166,18 @@ Recovery::rejectionOf(std::size_t scan,
                          options_.num_threads);
 }
 
-bool
-Recovery::areRaysReliable(std::size_t scan, const std::vector<ScanResult>& scans) const
+RayTest
+Recovery::testRays(std::size_t scan, const std::vector<ScanResult>& scans) const
 {
   const auto usual = usualBefore(scan, scans);
+  if (usual.empty())
+    return RayTest::kUnproven;
   const double background = contradictionBackground(usual);
-  return std::any_of(usual.begin(), usual.end(), [&](const LinkEvidence& link) {
-    return testLink(link, background).trust == LinkTrust::kGood;
-  });
+  const bool is_any_good =
+      std::any_of(usual.begin(), usual.end(), [&](const LinkEvidence& link) {
+        return testLink(link, background).trust == LinkTrust::kGood;
+      });
+  return is_any_good ? RayTest::kConfirming : RayTest::kFailed;
 }
 
 bool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -17,6 +18,29 @@ namespace pcl6d::slam6d {
 /** \return whether the time of failed searches is limited to about the time of matching */
 bool
 isBounded(const Slam6DOptions& options);
+
+/** Result of rays on the latest links of a map. */
+enum class RayTest {
+  kUnproven, ///< there are no links yet
+  kFailed, ///< none is confirmed: glass, motion during the scans, errors of the scanner
+  kConfirming
+};
+
+/** A match that was not accepted. */
+struct RejectedMatch {
+  /** points and rays of surrounding scans do not confirm it */
+  bool is_unconfirmed = false;
+  bool is_contradicted = false; ///< ... but an inconsistent link rejects it
+  bool is_expected = false;     ///< agrees with the odometry
+  RayTest rays = RayTest::kUnproven;
+};
+
+/** \return whether to search for the scan far from its prediction, too. A bounded recovery does not,
+ * if a match agrees with the odometry, no link contradicts it, and rays confirm no other link
+ * either: the same rays would test every pose found, and a long search takes longer than all
+ * matches of a short run */
+PCL6D_EXPORTS bool // exported for its test
+isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);
 
 /** \brief Recovery of scans without a match at the pose predicted by odometry (algorithms.md G.3).
  * Searches by the previous motion, then around the prediction, then without prediction. Points and
@@ -41,10 +65,9 @@ public:
               const std::vector<ScanResult>& scans,
               PlaceNeeds needs = PlaceNeeds::kConfirmed);
 
-  /** \return whether rays confirm a link between previous scans. Otherwise rays cannot test matches
-   * here, or their ability is unproven */
-  bool
-  areRaysReliable(std::size_t scan, const std::vector<ScanResult>& scans) const;
+  /** \return whether rays confirm a link between previous scans */
+  RayTest
+  testRays(std::size_t scan, const std::vector<ScanResult>& scans) const;
 
   /** \return whether a quick check with few points finds that rays of previous scans pass through
    * the matched scan: a reason for the full test */

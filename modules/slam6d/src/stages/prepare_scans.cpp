@@ -34,27 +34,41 @@ deriveFromScans(const SlamState& state)
   return parameters;
 }
 
+/** Scans are prepared one by one: cancelling keeps the parameters and the scans prepared before,
+ * and the next run continues. */
 class PrepareScans : public Stage {
   StageEnd
-  run(SlamState& state, SlamContext&) override
+  run(SlamState& state, SlamContext& context) override
   {
+    try {
+      prepareAll(state, context);
+    } catch (const Cancelled&) {
+      return StageEnd::kStopped; // the parameters stay: the prepared scans follow them
+    }
+    return StageEnd::kDone;
+  }
+
+  static void
+  prepareAll(SlamState& state, SlamContext& context)
+  {
+    const ProgressCallback report = [&](const Progress& now) { context.report(now); };
     Slam6DOptions& options = state.options;
     if (options.motion.gives_poses && state.motion.anyMoved())
       options.initial_guess = InitialGuess::kOdometry;
-    prepareWaiting(state);
+    prepareWaiting(state, report);
     if (options.verify || !options.control.points.empty() || options.leave_out_moving ||
         state.isWithoutSequence() || isRecovering(options))
       state.verification.prepare(state.scans.reduced(),
                                  state.scans.measured(),
                                  state.map->matcher().modelOptions(true),
-                                 state.result.parameters.voxel.value);
-    return StageEnd::kDone;
+                                 state.result.parameters.voxel.value,
+                                 report);
   }
 };
 } // namespace
 
 void
-prepareWaiting(SlamState& state)
+prepareWaiting(SlamState& state, const ProgressCallback& report)
 {
   if (!state.map) {
     state.result.parameters = deriveFromScans(state);
@@ -62,7 +76,7 @@ prepareWaiting(SlamState& state)
         state.options, state.result.parameters, state.scans, state.recovery);
   }
   state.scans.prepare(
-      state.map->matcher(), state.result.parameters, state.result.scans);
+      state.map->matcher(), state.result.parameters, report, state.result.scans);
 }
 
 StagePtr

@@ -141,8 +141,8 @@ public:
   bool
   optimize();
 
-  /** \brief Asks a running optimize() to stop after the current scan. May be called
-   * from another thread or a callback. */
+  /** \brief Asks a running optimize() to stop after the current scan, also while scans are
+   * prepared. May be called from another thread or a callback. */
   void
   cancel();
 

@@ -76,7 +76,7 @@ TEST(MonteCarloLocalisation, FollowsADriveOf100Metres)
   const Drive drive = driveAlongTheStreet();
   EXPECT_GT(drive.odometry_error, 10) << "[m] else the odometry alone would do";
   const Estimates estimates = localise(drive);
-  // algorithms.md C28: 4 cm rms, 11 cm at most, 0.14 deg; the same within a third.
+  // A prototype in Python: 4 cm rms, 11 cm at most, 0.14 deg; the same within a third.
   const Errors errors = errorsOf(estimates, drive, 5);
   EXPECT_LT(errors.rms, 0.053);
   EXPECT_LT(errors.max, 0.15);

@@ -53,7 +53,7 @@ TEST(RunChanges, OfOneRoomThatWasScannedTwiceAreNone)
   EXPECT_TRUE(found.changes.empty()) << describe(found);
   EXPECT_EQ(found.first.changed + found.second.changed, 0u);
   EXPECT_LT(found.contradiction(),
-            0.002); // of the worst right links (algorithms.md T.1)
+            0.002); // least background of right links: share/doc/trust.md
   EXPECT_GT(found.first.there, found.first.points * 9 / 10);
 }
 

@@ -35,8 +35,8 @@ using pcl6d::test::randomPose;
 using pcl6d::test::umeyamaOracle;
 
 namespace {
-// Checks C1 to C4 of algorithms.md: 1e-14 for general sets, 6e-14 for planar ones with
-// the orthonormal matrices; times 10 for the tail.
+// 400 random sets of each kind, in NumPy: 1e-14 for general sets, 6e-14 for planar ones
+// with the orthonormal matrices; times 10 for the tail.
 
 void
 expectMotion(const RigidEstimate& found, const Eigen::Isometry3d& truth)

@@ -51,7 +51,7 @@ sumsAt(const Pairs& pairs, const Eigen::Isometry3d& pose)
 
 TEST(PoseCovariance, IsTheSpreadOfRepeatedFits)
 {
-  // C7 of algorithms.md: 12 pairs, fitted again and again with new noise.
+  // 12 pairs, fitted again and again with new noise.
   Random random(1);
   const auto source = randomPoints(random, kMeasured, 5, {8, 3, -2});
   const Eigen::Isometry3d truth = pcl6d::poseFromEuler({20, -30, 5}, {0.4, -0.7, 2.1});

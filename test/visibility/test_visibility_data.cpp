@@ -70,7 +70,7 @@ TEST(Hku1, RaysTellTheRightPoseOfNeighboursFromWrongOnes)
     const Isometry T_a_b = poses[k].inverse() * poses[k + 1];
     const SightEvidence right = bothWays(a, b, T_a_b);
     EXPECT_EQ(right.points(), a.points.size() + b.points.size());
-    // Measured: 0.0004 to 0.0029, and 0.46 to 0.69 shifted; algorithms.md T.1: 0.009 at most.
+    // Measured: 0.0004 to 0.0029, and 0.46 to 0.69 shifted; other links of hku1: up to 0.009.
     EXPECT_LT(right.contradiction(), 0.009);
     EXPECT_GT(right.confirmation(), 0.4);
     EXPECT_LE(right.contradicted_patches, right.patches / 200);

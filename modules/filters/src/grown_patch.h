@@ -9,7 +9,7 @@
 namespace pcl6d::filters {
 
 /** Standard deviations of a patch, the second by the first, up to which its points lie on a line,
- * with a width that may be noise (algorithms.md S.2, rule A). */
+ * with a width that may be noise (share/doc/sampling.md, Normals). */
 constexpr double kLine = 0.3;
 
 /** \return the smallest patch at least half as wide as long; without normal if no patch up to the

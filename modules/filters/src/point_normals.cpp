@@ -220,7 +220,7 @@ normalsOfPatches(const Points& places,
 }
 
 /** Standard deviations of a patch, the second by the first, above which a grown patch is a surface:
- * half as wide as long (algorithms.md S.3, "grow 0.5"). */
+ * half as wide as long (share/doc/sampling.md, Normals). */
 constexpr double kFlat = 0.5;
 /** Sizes of the patches tried in turn. */
 constexpr std::size_t kGrown[] = {16, 24, 40, kMostNeighbours};

@@ -6,13 +6,13 @@
 /** \file Constants shared by several files of the module, with the source of each. */
 namespace pcl6d::global_registration {
 
-/** Surfaces are level up to 37 deg: cosine (algorithms.md G.4). */
+/** Surfaces are level up to 37 deg: cosine (share/doc/place_recognition.md). */
 constexpr double kLevel = 0.8;
 
 /** Violated shares that divide the score of a pose by e: of starting poses, up to a cell off;
  * of matched poses; and of tested poses. There right poses have shares of 0.001 to 0.004,
- * wrong poses 0.02 to 0.13 (algorithms.md G.4). The best of several poses depends little on
- * the constants: bench_places finds 1 of 25 more with 0.05 than with 0.2. */
+ * wrong poses 0.02 to 0.13 (medians of recorded and simulated sets). The best of several poses
+ * hardly depends on them: bench_places finds 1 of 25 more with 0.05 than with 0.2. */
 constexpr double kContradictedStart = 0.05, kContradictedMatch = 0.02,
                  kContradictedPlace = 0.01;
 

@@ -18,7 +18,7 @@ constexpr double kCoarser = 1.5;
 constexpr int kFilled = 6;
 
 /** Least share of measured cells of a level with a result: below, its cells are finer than the
- * sampling of the scan, and are filled by chance (algorithms.md T.1). */
+ * sampling of the scan, and are filled by chance (share/doc/trust.md, Pyramid). */
 constexpr double kUsefulShare = 0.25;
 
 /** [standard deviations] Ranges within this distance are equal. */

@@ -14,7 +14,7 @@ namespace {
 /** Least number of free or confirmed points of a patch ... */
 constexpr std::size_t kLeastOfPatch = 4;
 /** ... and least number of free points, together with half of all points, for a contradiction
- * (T.1). */
+ * (share/doc/trust.md, Counting). */
 constexpr std::size_t kLeastFree = 3;
 
 /** Number of a scan's own tested points: a share of 5 % is estimated to a tenth. */

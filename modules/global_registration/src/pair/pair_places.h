@@ -36,7 +36,7 @@ public:
 
   /** \brief Where the surfaces leave a motion open, as along a corridor: whether rays and
    * overlap fix the pose all the same. Poses along the motion are tested in both directions,
-   * near and far (algorithms.md T.2).
+   * near and far (share/doc/place_recognition.md, Uniqueness).
    * \param[in] most_ambiguity largest ratio of the score of such a pose to the best score */
   bool
   isHeld(const PlaceCandidate& best, double most_ambiguity) const;

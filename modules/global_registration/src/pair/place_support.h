@@ -21,7 +21,7 @@ struct PlaceSupport {
   Count level, other;
 
   /** \return overlap: weighted share of points on surfaces of the other scan, in [0, 1]; weight
-   * 0.3 for level surfaces, 0.7 for the rest (algorithms.md G.4) */
+   * 0.3 for level surfaces, 0.7 for the rest (share/doc/place_recognition.md, Score) */
   double
   overlap() const;
 

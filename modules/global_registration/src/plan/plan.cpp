@@ -16,8 +16,8 @@ namespace {
 /** A surface is upright if its normal is nearly level: cosine of 60 deg. */
 constexpr double kLevelNormal = 0.5;
 
-/** Least cell size in voxels (algorithms.md G.4); larger where too many cells would be filled,
- * because pairs of cells vote. */
+/** Least cell size in voxels: half of this size found no more poses in a prototype. Larger where
+ * too many cells would be filled, because pairs of cells vote. */
 constexpr double kCellVoxels = 2;
 constexpr std::size_t kMostCells = 1000;
 

@@ -56,8 +56,8 @@ struct PlanSearch {
  * \param[in] fixed, moved with equal edges of cells
  * \param[in] most largest number of placements, a few cells or turns apart
  * \return the best first; ties by yaw and shift
- * \note Source: algorithms.md G.1 (correlation of images, here by sparse votes: whole numbers,
- * equal on every platform) */
+ * \note Source: share/doc/place_recognition.md, Plan and votes (a correlation of images by sparse
+ * votes: whole numbers, equal on every platform) */
 std::vector<PlanPlacement>
 placePlan(const Plan& fixed,
           const Plan& moved,

@@ -14,13 +14,13 @@
 namespace pcl6d::moving_objects {
 
 namespace {
-/** [voxels] Beyond this distance residuals of points are correlated by less than a third
- * (algorithms.md T.3): patches with this edge count as independent ... */
+/** [voxels] From half of this distance on, residuals of points are correlated by 0.01 to 0.33
+ * (recorded and simulated scans): patches with this edge count as independent ... */
 constexpr double kPatchVoxels = 3;
 /** ... and a plane has this many voxels in a patch. */
 constexpr double kVoxelsOfPatch = kPatchVoxels * kPatchVoxels;
 
-/** Least gone voxels of a patch seen through; half of its voxels are needed, too (T.1). */
+/** Least gone voxels of a patch; half of its voxels, too (share/doc/trust.md, Counting). */
 constexpr std::size_t kLeastGone = 3;
 
 /** Smaller objects have no shape [voxels]: the two visible sides of a cube of three voxels,

@@ -40,7 +40,7 @@ struct RobustMotion {
  * open by the planes get no step, and the spread of the points as uncertainty.
  * \param[in] cube [m] > 0
  * \return pairs 0: fewer than 12
- * \note Source: algorithms.md T.3 (H^-1 (sum g_k g_k^T) H^-1 over cubes) */
+ * \note Source: share/doc/trust.md, Covariance (H^-1 (sum g_k g_k^T) H^-1 over cubes) */
 RobustMotion
 robustMotion(const std::vector<PlanePair>& pairs, double cube);
 

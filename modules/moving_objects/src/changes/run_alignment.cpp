@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kPointsOfScan = 2000;
 
 /** [voxels] Points in a cube with this edge count as one: beyond, residuals are correlated by
- * less than 5 % (algorithms.md T.3). */
+ * less than 5 % (share/doc/trust.md, Origin of the numbers). */
 constexpr double kCubeVoxels = 16;
 
 /** Iterations of matching: pairs are searched again, within half of the distance, until ... */

@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastVariance = 0.01;
 /** Standard deviations of the points of a cell, the second by the first, up to which the points lie
  * on one line, and above which a grown neighbourhood is a surface: the values for normals
- * (algorithms.md S.2, rule A, and S.3, "grow 0.5"). */
+ * (share/doc/sampling.md, Normals). */
 constexpr double kLineOfCell = 0.3, kSurfaceOfCell = 0.5;
 /** The radii of a growing neighbourhood, in sides of a cell: from just above a cell's volume to
  * points in the adjacent cells. */

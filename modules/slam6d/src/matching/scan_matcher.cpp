@@ -33,7 +33,7 @@ constexpr double kNoMotion = 0.25;
 constexpr double kSmallCorrection = 1.5;
 
 /** A larger turn [rad] is tested like a pose without prediction: odometry is off by 4.5 deg a step
- * on a car, by less on robots (algorithms.md G.3). */
+ * in recorded scans of a car in a street, by less on robots. */
 constexpr double kSmallTurn = 0.15;
 
 /** ICP ends when it moves the scan by less than this share of the voxel. */

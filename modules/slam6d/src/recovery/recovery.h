@@ -42,9 +42,9 @@ struct RejectedMatch {
 PCL6D_EXPORTS bool // exported for its test
 isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);
 
-/** \brief Recovery of scans without a match at the pose predicted by odometry (algorithms.md G.3).
- * Searches by the previous motion, then around the prediction, then without prediction. Points and
- * rays of the surrounding scans decide. */
+/** \brief Recovery of scans without a match at the pose predicted by odometry. Searches by the
+ * previous motion, then around the prediction, then without prediction (With a predicted pose, in
+ * share/doc/place_recognition.md). Points and rays of the surrounding scans decide. */
 class Recovery {
 public:
   /** A recovered pose. */

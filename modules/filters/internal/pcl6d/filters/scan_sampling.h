@@ -9,9 +9,9 @@
 
 namespace PCL6D_EXPORTS pcl6d {
 
-/** \brief Voxels of this many line spacings hold points of two lines wherever the surface faces
- * the scanner, at up to 1.4 times the median range (algorithms.md S.2, rule C: 1.4 and more
- * lose detail of narrow corridors, below 1 registration of rooms fails). */
+/** \brief [line spacings] Edge of a voxel: on surfaces facing the scanner, up to 1.3 times the
+ * median range, no row of voxels lies between two lines. Measured: 1.4 and more lose detail of
+ * narrow corridors, below 1 registration of rooms fails (share/doc/sampling.md, Voxel). */
 inline constexpr double kVoxelOfLines = 1.3;
 
 /** \brief Arrangement of the points of a scan, seen from the scanner. */
@@ -55,7 +55,7 @@ struct ScanSampling {
 
 /** \brief Measures the sampling from the geometry alone: about 300 directions, evenly chosen; the
  * line through a point is the principal axis of its 5 nearest directions, and directions at more
- * than 45 degrees to the line are across (algorithms.md S.2, rule C).
+ * than 45 degrees to the line are across (share/doc/sampling.md, Line spacing and structure).
  * \param[in] points [m] in any order; points that are not finite or at the scanner are left out;
  * copies of a point count once
  * \param[in] origin [m] of the scanner, in the frame of the points */

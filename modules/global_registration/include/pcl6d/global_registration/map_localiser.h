@@ -47,7 +47,7 @@ struct MapLocaliserOptions {
  * pcl6d::MapLocaliser localiser(map); // KnownScan per scan of the map
  * const pcl6d::LocalisedScan found = localiser.localise(scan);
  * \endcode
- * \note Source: algorithms.md G.2, G.3 \ingroup global_registration */
+ * \note Source: share/doc/place_recognition.md \ingroup global_registration */
 class MapLocaliser {
 public:
   /** \param[in] map scans with poses, of equal voxel; kept by reference

@@ -66,7 +66,7 @@ struct GuessOptions {
  * \param[in] guesses initial poses T_world_scan
  * \return not accepted also without others or guesses
  * \throws BadArgument an invalid option, or a pose is not a rigid motion
- * \note Source: algorithms.md G.3
+ * \note Source: share/doc/place_recognition.md, With a predicted pose
  * \ingroup global_registration */
 GuessedPlace
 placeByGuesses(const PlaceableScan& scan,
@@ -77,7 +77,7 @@ placeByGuesses(const PlaceableScan& scan,
 /** \brief A quick test, a millisecond per reference scan, before rejectionOfPose().
  * \param[in] others with the same voxel
  * \return free-space violations / (violations + met surfaces), in [0, 1]: 0.001 to 0.01 for
- * right poses, 0.02 to 0.13 for wrong poses (algorithms.md G.4)
+ * right poses, 0.02 to 0.13 for wrong poses (share/doc/place_recognition.md)
  * \throws BadArgument T_world_scan is not a rigid motion */
 double
 contradictionOfPlace(const PlaceableScan& scan,

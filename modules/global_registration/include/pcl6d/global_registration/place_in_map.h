@@ -60,7 +60,7 @@ struct MapPlaceOptions {
  * map, and tested by the points and rays of these scans, as in joinScans().
  * \param[in] map with the same voxel, at least one scan; its poses stay fixed
  * \throws BadArgument an invalid option, the map is empty, or a pose is not a rigid motion
- * \note Source: algorithms.md G.2 to G.4
+ * \note Source: share/doc/place_recognition.md, Joint placement
  * \ingroup global_registration */
 MapPlaces
 placeInMap(const PlaceableScan& scan,

@@ -85,7 +85,7 @@ struct PlaceSearchOptions {
  * and shift; level surfaces give the height. Peaks are tested by some of the points of both
  * scans and by rays. The best poses are matched (GICP) and tested by linkEvidence().
  * \throws BadArgument an invalid option
- * \note Source: algorithms.md G.1, G.4
+ * \note Source: share/doc/place_recognition.md
  * \ingroup global_registration */
 PlaceResult
 placeScan(const PlaceableScan& first,

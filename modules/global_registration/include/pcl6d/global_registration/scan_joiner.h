@@ -77,7 +77,7 @@ struct JoinOptions {
  * \param[in] scans with the same voxel; their order does not matter: ties are broken by content
  * \throws BadArgument an invalid option, the numbers of known poses and scans differ, or a pair
  * is not of two scans
- * \note Source: algorithms.md G.2, G.4
+ * \note Source: share/doc/place_recognition.md, Joint placement
  * \ingroup global_registration */
 JoinedScans
 joinScans(const std::deque<PlaceableScan>& scans, const JoinOptions& options = {});

@@ -33,7 +33,7 @@ struct VerticalEstimate {
  * \return the expected direction, not sure, without normals or where no direction is better
  * than chance
  * \throws BadArgument expected is no unit vector
- * \note Source: algorithms.md G.4
+ * \note Source: share/doc/place_recognition.md, Vertical
  * \ingroup global_registration */
 VerticalEstimate
 estimateVertical(const Normals& normals,

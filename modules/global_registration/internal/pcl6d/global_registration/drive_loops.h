@@ -26,7 +26,7 @@ struct DriveLoop {
 /** \brief Knobs of closeDriveLoops(). */
 struct DriveLoopOptions {
   /** largest drift between two scans, as share of the way between them; in (0, 1]. Odometry
-   * from scans drifts by 0.1 to 3 % (algorithms.md D), a wheel on carpet by 10 % */
+   * from scans drifts by 0.1 to 3 % (simulated drives), a wheel on carpet by 10 % */
   double max_drift = 0.1;
   /** [m] loops between nearer scans are left to detectLoops(). Default: the larger of half the
    * median range and 4 median steps, as for detectLoops() in a run; >= 0 */

@@ -40,7 +40,7 @@ struct RunAlignment {
  * the other run, by cubes of points, plus the square of the remaining step. A scan without
  * common points takes the largest covariance of its run.
  * \throws BadArgument an invalid option, or a scan is not complete
- * \note Source: algorithms.md T.3; weights of Geman and McClure
+ * \note Source: share/doc/trust.md, Covariance; weights of Geman and McClure
  * \ingroup moving_objects */
 RunAlignment
 alignRuns(ComparedRun& first,

@@ -103,7 +103,7 @@ testLink(const LinkEvidence& evidence, double background);
  * \param[in] evidence of the link at its pose
  * \param[in] background of contradictionBackground()
  * \return none if the link is not consistent at its pose
- * \note Source: algorithms.md T.4 */
+ * \note Source: share/doc/trust.md, Detectable shift */
 std::optional<NoticedError>
 noticedError(const VerifiedScan& first,
              const VerifiedScan& second,

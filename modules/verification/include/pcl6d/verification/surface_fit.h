@@ -64,7 +64,7 @@ struct SurfaceFit {
  * \param[in] T_first_second pose of the second scan seen from the first
  * \return no pairs: everything 0
  * \throws BadArgument an option is invalid
- * \note Source: algorithms.md T.3 (cluster covariance: H^-1 (sum g_k g_k^T) H^-1 over cubes,
+ * \note Source: share/doc/trust.md, Surfaces (covariance H^-1 (sum g_k g_k^T) H^-1 over cubes,
  * averaged over shifted grids, with P / (P - 6) for P cubes). */
 SurfaceFit
 fitSurfaces(const VerifiedScan& first,

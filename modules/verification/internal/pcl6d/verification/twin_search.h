@@ -20,7 +20,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * \param[in] up unit vector upwards in the frame of the first scan
  * \return T_first_second of second poses, by quarter turn, then by number of votes
  * \throws BadArgument T_first_second is not a rigid motion, or up no unit vector
- * \note Source: algorithms.md T.2, G.1 \ingroup verification */
+ * \note Source: share/doc/trust.md, Ambiguous poses \ingroup verification */
 std::vector<Eigen::Isometry3d>
 findTwins(const VerifiedScan& first,
           const VerifiedScan& second,

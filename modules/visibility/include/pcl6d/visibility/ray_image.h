@@ -63,7 +63,7 @@ struct RayImageOptions {
  * point gives the result. A cell is merged with its eight neighbours, also across the edges of the
  * cube, to be robust against object edges and the width of the beam. About 0.3 MB for each face
  * with measurements.
- * \note Source: share/doc/trust.md; the halo and the pyramid are algorithms.md T.1.
+ * \note Source: share/doc/trust.md, A scan as rays.
  * \ingroup visibility */
 class RayImage {
 public:

@@ -33,7 +33,7 @@ namespace PCL6D_EXPORTS pcl6d {
  * if (!placing.hasConverged())
  *   std::cerr << toString(placing.answer()) << ": " << placing.reason() << '\n';
  * \endcode
- * \note Source: algorithms.md G
+ * \note Source: share/doc/place_recognition.md
  * \ingroup global_registration */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class GlobalRegistration : public CoarseRegistration<PointSource, PointTarget, Scalar> {

@@ -169,8 +169,9 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
   return pairs;
 }
 
-/** \return whether a second pose of a scan is as good a link with a neighbour as its present pose,
- * and is not contradicted by any other scan with a consistent link */
+/** \return whether a second pose of a scan makes a consistent link with a neighbour, is not
+ * contradicted by any other scan with a consistent link, and is confirmed about as much as the
+ * present pose, by the neighbour and by all these scans together */
 bool
 MapVerifier::fitsElsewhere(std::size_t scan,
                            std::size_t beside,
@@ -183,20 +184,23 @@ MapVerifier::fitsElsewhere(std::size_t scan,
   };
   const LinkEvidence there = evidenceAt(beside, T_world_scan);
   const LinkEvidence here = evidenceAt(beside, poses[scan]);
+  auto confirmed_there = static_cast<double>(there.sight.confirmed_patches);
+  auto confirmed_here = static_cast<double>(here.sight.confirmed_patches);
   if (testLink(there, map.background).trust != LinkTrust::kGood ||
-      static_cast<double>(there.sight.confirmed_patches) <
-          kTwinShare * static_cast<double>(here.sight.confirmed_patches))
+      confirmed_there < kTwinShare * confirmed_here)
     return false;
   for (const LinkCheck& link : map.links) {
     const std::size_t other = link.from == scan ? link.to : link.from;
     if ((link.from != scan && link.to != scan) || other == beside ||
         link.trust != LinkTrust::kGood)
       continue;
-    if (testLink(evidenceAt(other, T_world_scan), map.background).trust ==
-        LinkTrust::kWrong)
+    const LinkEvidence of_other = evidenceAt(other, T_world_scan);
+    if (testLink(of_other, map.background).trust == LinkTrust::kWrong)
       return false;
+    confirmed_there += static_cast<double>(of_other.sight.confirmed_patches);
+    confirmed_here += static_cast<double>(link.patches - link.contradicted);
   }
-  return true;
+  return confirmed_there >= kTwinShare * confirmed_here;
 }
 
 /** Finds second poses of scans placed without a prior pose. */

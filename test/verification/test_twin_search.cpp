@@ -294,6 +294,32 @@ TEST(Ambiguity, NamesTheScanThatFitsAlongARowOfShelves)
       map.scans[1].doubt, scanned.poses[1], shifted(scanned.poses[1], {kPeriod, 0, 0}));
 }
 
+TEST(Ambiguity, IsNoneWhereAllScansAroundTellWhatTheOneBeforeDoesNot)
+{
+  // Half a turn about the first scan maps the corridor to itself. The second scan is confirmed by
+  // five others at its place, and by none of these there.
+  PillarRoom corridor;
+  corridor.walls = {Vector(-20, -1.5, -1), Vector(20, 1.5, 1.5)};
+  corridor.pillars.clear();
+  Random random(4);
+  for (double x = -19; x < -0.5; x += random.uniform(1.2, 2.5)) {
+    const double side = random.uniform() < 0.5 ? -1 : 1;
+    const Vector low(x, std::min(side, 1.5 * side), -1);
+    const Vector high = low + Vector(random.uniform(0.4, 1), 0.5, random.uniform(1, 2.4));
+    corridor.pillars.emplace_back(low, high);
+    corridor.pillars.emplace_back(Vector(-high.x(), -high.y(), -1),
+                                  Vector(-low.x(), -low.y(), high.z()));
+  }
+  Poses poses;
+  for (const double x : {0.0, -7.0, -8.2, -5.8, -4.5, -3.0, -1.5})
+    poses.push_back(pcl6d::planarPose(x, 0, 0.1 * x));
+  const Scanned scanned(corridor, poses, 7);
+  const MapVerification map =
+      scanned.verified({false, true, false, false, false, false, false});
+  EXPECT_FALSE(map.scans[1].doubt) << toWords(map.scans[1].doubt);
+  EXPECT_EQ(map.trust, MapTrust::kGood);
+}
+
 TEST(Ambiguity, IsNoneInARoomWithoutSymmetry)
 {
   const MapVerification map = Scanned(uniqueRoom()).verified({true, true});

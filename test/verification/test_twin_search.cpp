@@ -305,7 +305,8 @@ TEST(Ambiguity, IsNoneWhereAllScansAroundTellWhatTheOneBeforeDoesNot)
   for (double x = -19; x < -0.5; x += random.uniform(1.2, 2.5)) {
     const double side = random.uniform() < 0.5 ? -1 : 1;
     const Vector low(x, std::min(side, 1.5 * side), -1);
-    const Vector high = low + Vector(random.uniform(0.4, 1), 0.5, random.uniform(1, 2.4));
+    const Vector high =
+        low + Vector(random.uniform(0.4, 1), 0.5, random.uniform(1, 2.4));
     corridor.pillars.emplace_back(low, high);
     corridor.pillars.emplace_back(Vector(-high.x(), -high.y(), -1),
                                   Vector(-low.x(), -low.y(), high.z()));

@@ -22,7 +22,6 @@ using pcl6d::MapVerifierOptions;
 using pcl6d::Points;
 using pcl6d::Random;
 using pcl6d::RejectReason;
-using pcl6d::VerifiedScan;
 using pcl6d::test::badArgumentOf;
 using pcl6d::test::kNan;
 using pcl6d::test::kVoxel;
@@ -302,7 +301,8 @@ TEST(Ambiguity, IsNoneWhereAllScansAroundTellWhatTheOneBeforeDoesNot)
   corridor.walls = {Vector(-20, -1.5, -1), Vector(20, 1.5, 1.5)};
   corridor.pillars.clear();
   Random random(4);
-  for (double x = -19; x < -0.5; x += random.uniform(1.2, 2.5)) {
+  double x = -19;
+  while (x < -0.5) {
     const double side = random.uniform() < 0.5 ? -1 : 1;
     const Vector low(x, std::min(side, 1.5 * side), -1);
     const Vector high =
@@ -310,6 +310,7 @@ TEST(Ambiguity, IsNoneWhereAllScansAroundTellWhatTheOneBeforeDoesNot)
     corridor.pillars.emplace_back(low, high);
     corridor.pillars.emplace_back(Vector(-high.x(), -high.y(), -1),
                                   Vector(-low.x(), -low.y(), high.z()));
+    x += random.uniform(1.2, 2.5);
   }
   Poses poses;
   for (const double x : {0.0, -7.0, -8.2, -5.8, -4.5, -3.0, -1.5})

@@ -103,7 +103,7 @@ rejectionBy(std::vector<LinkEvidence> of_place,
     links = withThingsOnce(std::move(links));
   }
   bool is_held = false;
-  const Rejection contradiction = contradictionBy(of_place, links, is_held);
+  Rejection contradiction = contradictionBy(of_place, links, is_held);
   if (contradiction || needs == PlaceNeeds::kNoContradiction)
     return contradiction;
   if (!is_held)

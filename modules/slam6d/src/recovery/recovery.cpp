@@ -227,7 +227,7 @@ Recovery::findByMotion(std::size_t scan, const std::vector<ScanResult>& scans)
 std::optional<Recovery::Found>
 Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
 {
-  if (const auto found = findByMotion(scan, scans))
+  if (auto found = findByMotion(scan, scans))
     return found;
   const auto way = motionSinceLast(scan, scans, verified_[scan].voxel());
   if (!way || !isSearchDue(scan, scans, isBounded(options_)))

@@ -38,9 +38,9 @@ constexpr double kDisconnecting = 10;
 constexpr double kRetryBelow = 0.9, kMatchedAbove = 0.7, kLeastOverlap = 0.25;
 
 /** Deviation of distances from surfaces, in usual deviations. Calibrated by simulated drives
- * (corridor, campus, multilevel with vlp16). Right poses: up to 2 where points have times, up to 10 without
- * times at the begin of a bend of 10 degrees a sweep, with at least 0.74 of the usual overlap. False
- * poses after ten missing sweeps: 5 to 38, with 0.26 to 0.84 of the usual overlap.
+ * (corridor, campus, multilevel with vlp16). Right poses: up to 2 where points have times, up to
+ * 10 without times at the begin of a bend of 10 degrees a sweep, with at least 0.74 of the usual
+ * overlap. False poses after ten missing sweeps: 5 to 38, with 0.26 to 0.84 of the usual overlap.
  * From kSuspicious on, other poses are tried; where the sweep has lost overlap, too, or from
  * kElsewhere on, it is not matched. */
 constexpr double kSuspicious = 3, kElsewhere = 12, kOverlapElsewhere = 0.7;

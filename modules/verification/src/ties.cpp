@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
-#include "evidence_parts.h"
+#include "cut_evidence.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/verification/ties.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 
 namespace pcl6d::verification {
@@ -91,82 +89,6 @@ private:
   std::vector<std::vector<std::size_t>> at_; ///< links of each scan
   std::vector<std::size_t> entered_, left_;  ///< order of visits; 0: not yet visited
   std::size_t clock_ = 0;
-};
-
-/** The joint evidence of the links across a cut against these links, each with its background. The
- * ray part of each link is stored for several backgrounds. */
-class CutEvidence {
-public:
-  explicit CutEvidence(const std::vector<LinkCheck>& links)
-  : links_(links), known_(links.size() * kLevels)
-  {}
-
-  /** \return the log likelihood ratios. Links are correlated: m links count as sqrt(m) independent
-   * links, each with their mean. \param[in] backgrounds one per link of the cut */
-  RaysAgainst
-  against(const std::vector<std::size_t>& cut, const std::vector<double>& backgrounds)
-  {
-    RaysAgainst sum;
-    for (std::size_t i = 0; i < cut.size(); ++i) {
-      const std::size_t k = cut[i];
-      const RaysAgainst& rays = raysOf(k, levelOf(backgrounds[i]));
-      const double surfaces = kCutSurfaces * surfacesAgainst(links_[k]);
-      sum.usual += rays.usual + surfaces;
-      sum.even += rays.even + surfaces;
-    }
-    const double root =
-        std::sqrt(static_cast<double>(std::max<std::size_t>(1, cut.size())));
-    return {sum.usual / root, sum.even / root};
-  }
-
-private:
-  static constexpr std::size_t kLevels = 22;
-  static constexpr double kLadder = 1.25; ///< to 0.054, beyond kMostBackground
-
-  static std::size_t
-  levelOf(double background)
-  {
-    std::size_t level = 0;
-    for (double b = kLeastCutBackground * kLadder;
-         b < background && level + 1 < kLevels;
-         b *= kLadder)
-      ++level;
-    return level;
-  }
-
-  static double
-  backgroundOf(std::size_t level)
-  {
-    double background = kLeastCutBackground;
-    for (std::size_t i = 0; i < level; ++i)
-      background *= kLadder;
-    return background;
-  }
-
-  const RaysAgainst&
-  raysOf(std::size_t link, std::size_t level)
-  {
-    std::optional<RaysAgainst>& known = known_[link * kLevels + level];
-    if (!known)
-      known = raysAgainst(links_[link].contradicted,
-                          links_[link].patches,
-                          {backgroundOf(level), kLeastCutBackground, kCutPrecision});
-    return *known;
-  }
-
-  /** Log ratio of two normal distributions: of twice the deviation, and of the deviation. */
-  static double
-  surfacesAgainst(const LinkCheck& link)
-  {
-    constexpr double kLogTwo = 0.69314718055994531;
-    if (link.open_directions > 0 || !(link.deviation > 0))
-      return 0;
-    const double sigmas = std::min(link.shift / link.deviation, kMostCutSigmas);
-    return 3.0 / 8 * sigmas * sigmas - kLogTwo;
-  }
-
-  const std::vector<LinkCheck>& links_;
-  std::vector<std::optional<RaysAgainst>> known_; ///< kLevels per link
 };
 
 /** Cuts contradicted parts of the map. */

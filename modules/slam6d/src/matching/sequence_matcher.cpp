@@ -96,7 +96,8 @@ SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
     scan.start = InitialGuess::kGlobal;
   if (!isRecovering(options_) || isRegistered(scan))
     return;
-  rejected.rays = recovery_.testRays(i, scans);
+  if (rejected.is_unconfirmed) // rays decide nothing else
+    rejected.rays = recovery_.testRays(i, scans);
   lookFor(i, isLongSearchUseful(rejected, options_.recovery), scans);
   // Where rays cannot test, a match without a better alternative is kept: the verdict on the whole
   // map decides.

@@ -10,13 +10,13 @@
 #include "common/process/memory_budget.h"
 #include "common/progress_bar.h"
 #include "slam6d/explain.h"
-#include "slam6d/join.h"
-#include "slam6d/live_window.h"
-#include "slam6d/planes_of_run.h"
+#include "slam6d/input/join.h"
+#include "slam6d/input/shared_reading.h"
+#include "slam6d/output/live_window.h"
+#include "slam6d/output/planes_of_run.h"
+#include "slam6d/output/run_drawing.h"
+#include "slam6d/output/run_output.h"
 #include "slam6d/ranks.h"
-#include "slam6d/run_drawing.h"
-#include "slam6d/run_output.h"
-#include "slam6d/shared_reading.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/version.h>

@@ -3,7 +3,7 @@
 #include "common/app.h"
 #include "common/progress_bar.h"
 #include "doctor/doctor_settings.h"
-#include "doctor/report.h"
+#include "doctor/report/report.h"
 
 #include <pcl6d/io/atomic_file.h>
 #include <pcl6d/io/json_numbers.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/diagnosis.h"
-#include "doctor/words.h"
+#include "doctor/report/words.h"
 
 #include <pcl6d/common/voxel_numbers.h>
 #include <pcl6d/filters/range_statistics.h>

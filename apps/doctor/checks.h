@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "doctor/experiments.h"
 #include "doctor/finding.h"
 #include "doctor/measures.h"
+#include "doctor/peers/experiments.h"
 
 #include <vector>
 

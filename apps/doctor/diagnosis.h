@@ -2,9 +2,9 @@
 #pragma once
 
 #include "common/progress_bar.h"
-#include "doctor/experiments.h"
 #include "doctor/finding.h"
 #include "doctor/measures.h"
+#include "doctor/peers/experiments.h"
 
 #include <optional>
 #include <string>

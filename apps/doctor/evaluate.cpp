@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "doctor/experiments.h"
+#include "doctor/peers/experiments.h"
 
 #include <pcl6d/verification/pcl/registration_verifier.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/measures.h"
-#include "doctor/words.h"
+#include "doctor/report/words.h"
 #include "evaluate/pair_pose.h"
 
 #include <pcl6d/common/median.h>

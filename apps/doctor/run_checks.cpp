@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/checks.h"
-#include "doctor/run_words.h"
-#include "doctor/words.h"
+#include "doctor/report/run_words.h"
+#include "doctor/report/words.h"
 
 #include <pcl6d/io/text.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "doctor/checks.h"
-#include "doctor/words.h"
+#include "doctor/report/words.h"
 
 #include <pcl6d/io/text.h>
 

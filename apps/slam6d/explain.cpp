@@ -4,9 +4,9 @@
 #include "common/printable.h"
 #include "common/progress_bar.h"
 #include "slam6d/explain.h"
-#include "slam6d/join.h"
-#include "slam6d/run_input.h"
-#include "slam6d/shared_reading.h"
+#include "slam6d/input/join.h"
+#include "slam6d/input/run_input.h"
+#include "slam6d/input/shared_reading.h"
 
 #include <pcl6d/global_registration/scan_joiner.h>
 #include <pcl6d/io/text.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slam6d/settings.h"
+#include "slam6d/options/settings.h"
 
 namespace pcl6d::app {
 

@@ -2,8 +2,8 @@
 #include "common/app.h"
 #include "common/build_id.h"
 #include "common/process/memory_budget.h"
+#include "slam6d/input/shared_reading.h"
 #include "slam6d/ranks.h"
-#include "slam6d/shared_reading.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/fingerprint.h>

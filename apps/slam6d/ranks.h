@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "slam6d/run_input.h"
+#include "slam6d/input/run_input.h"
 
 #include <pcl6d/common/work_sharing.h>
 

@@ -2,7 +2,7 @@
 #include "common/app.h"
 #include "evaluate/suite/suite_check.h"
 #include "simulate/settings.h"
-#include "slam6d/settings.h"
+#include "slam6d/options/settings.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/io/scan_folder.h>

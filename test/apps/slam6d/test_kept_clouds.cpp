@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds between reading and writing: in memory as far as the budget goes, read again beyond.
-#include "slam6d/kept_clouds.h"
+#include "slam6d/input/kept_clouds.h"
 #include "support/temp_folder.h"
 
 #include <pcl6d/common/error.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/mesh_formats.h"
-#include "scan/ply_body.h"
+#include "scan/ply/ply_body.h"
 #include "scan/point_field.h"
 
 #include <algorithm>

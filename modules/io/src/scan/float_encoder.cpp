@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan/pcd_header.h"
+#include "scan/pcd/pcd_header.h"
 #include "scan/point_field.h"
 #include "scan/scan_encoder.h"
 #include "text/centimetres.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag/bag_drive.h"
 #include "bag/bag_topics.h"
-#include "bag/gnss_track.h"
+#include "bag/messages/gnss_track.h"
 
 #include <pcl6d/common/error.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bag/cloud_messages.h"
-#include "bag/frame_tree.h"
+#include "bag/messages/cloud_messages.h"
+#include "bag/messages/frame_tree.h"
 
 #include <pcl6d/io/bag_options.h>
 

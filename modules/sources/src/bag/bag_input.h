@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bag/byte_reader.h"
+#include "bag/files/byte_reader.h"
 
 #include <fstream>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bag/bag_topics.h"
-#include "bag/cloud_messages.h"
-#include "bag/gnss_messages.h"
-#include "bag/pose_messages.h"
+#include "bag/messages/cloud_messages.h"
+#include "bag/messages/gnss_messages.h"
+#include "bag/messages/pose_messages.h"
 
 #include <pcl6d/io/text.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan/las/las_bytes.h"
 #include "scan/las/las_values.h"
-#include "scan/pcd_header.h"
+#include "scan/pcd/pcd_header.h"
 #include "scan/point_field.h"
 
 #include <pcl6d/common/error.h>

@@ -2,6 +2,7 @@
 #include "common/progress_bar.h"
 #include "slam6d/input/drive_closing.h"
 #include "slam6d/input/sweep_tracking.h"
+#include "slam6d/input/tracked_drive.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
@@ -31,6 +32,10 @@ constexpr std::size_t kOneIn = 4;
  * degrees. */
 constexpr double kKeyframeTurn = 10 * kDegree;
 
+/** Scans with poses are the sweeps of a drive if at most this share would be keyframes: each place
+ * is then seen by four scans, as nobody who stops for each scan measures. */
+constexpr double kShareOfKeyframes = 0.25;
+
 SweepTrackerOptions
 trackerOptions(const Slam6DOptions& slam)
 {
@@ -56,80 +61,15 @@ sweepOf(const ScanFolder& folder, std::size_t i, const RunScans* times)
   return sweep;
 }
 
-/** \return the sweeps of a folder, without poses */
-DriveResult
-driveOf(const ScanFolder& folder)
-{
-  DriveResult drive;
-  drive.first = folder.index(0);
-  for (std::size_t i = 0; i < folder.size(); ++i)
-    drive.files.push_back(folder.name(i));
-  drive.stamps = folder.stamps();
-  if (!drive.stamps.empty())
-    drive.seconds = drive.stamps.back() - drive.stamps.front();
-  return drive;
-}
-
-/** Says where the track was lost, and where it went on. */
-class LostSweeps {
-public:
-  LostSweeps(const ScanFolder& folder, ProgressBar& bar) : folder_(folder), bar_(bar) {}
-
-  void
-  see(std::size_t i, SweepStatus status)
-  {
-    const bool is_lost = status == SweepStatus::kLost;
-    if (is_lost && !is_lost_)
-      say("lost at sweep ", i, "");
-    else if (!is_lost && is_lost_)
-      say(status == SweepStatus::kFirst ? "the map begins anew at sweep "
-                                        : "found again at sweep ",
-          i,
-          status == SweepStatus::kFirst ? ", from the predicted pose" : "");
-    is_lost_ = is_lost;
-  }
-
-  /** \return where the track was lost first, with a comma before; empty: nowhere */
-  const std::string&
-  first() const
-  {
-    return first_;
-  }
-
-private:
-  void
-  say(const std::string& what, std::size_t i, const std::string& more)
-  {
-    constexpr std::size_t kSaid = 20;
-    const std::string sweep =
-        std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")";
-    if (first_.empty())
-      first_ = ", first at sweep " + sweep;
-    if (++num_said_ <= kSaid)
-      bar_.say("tracking: " + what + sweep + more);
-    if (num_said_ == kSaid)
-      bar_.say("tracking: further lost sweeps are only counted");
-  }
-
-  const ScanFolder& folder_;
-  ProgressBar& bar_;
-  bool is_lost_ = false;
-  std::size_t num_said_ = 0;
-  std::string first_;
-};
-
 /** Tracks all sweeps. The next sweep is read meanwhile, unless only one thread is allowed.
- * \param[out] keyframes indices of the keyframes \param[out] lost_at where the track was lost first,
- * in words \return nothing: given up (--track auto) */
-std::optional<DriveResult>
+ * \return false: given up (--track auto) */
+bool
 trackAll(const Settings& settings,
          const ScanFolder& folder,
          const ProgressCallback& progress,
          ProgressBar& bar,
-         std::vector<std::size_t>& keyframes,
-         std::string& lost_at)
+         TrackedDrive& drive)
 {
-  SweepTracker tracker(trackerOptions(settings.slam));
   const std::size_t count = folder.size();
   RunScans times(folder);
   const bool has_times = haveTimes(folder);
@@ -142,29 +82,50 @@ trackAll(const Settings& settings,
       return sweepOf(folder, i, has_times ? &times : nullptr);
     });
   };
-  DriveResult drive = driveOf(folder);
-  LostSweeps lost(folder, bar);
   std::future<Sweep> next = read(0);
   for (std::size_t i = 0; i < count; ++i) {
-    const Sweep sweep = next.get();
+    Sweep sweep = next.get();
     if (i + 1 < count)
       next = read(i + 1);
-    const TrackedSweep found = tracker.track(sweep);
-    if (found.status == SweepStatus::kLost)
-      drive.lost.push_back(folder.index(i));
-    else if (found.is_keyframe || found.status == SweepStatus::kFirst || i + 1 == count)
-      keyframes.push_back(i);
-    lost.see(i, found.status);
-    drive.poses.push_back(found.T_world_sweep);
+    drive.track(i, std::move(sweep));
     progress({"tracking", i + 1, count});
-    if (settings.track == Tracking::kAuto && drive.lost.size() * kOneIn > count) {
+    if (settings.track == Tracking::kAuto && drive.numLost() * kOneIn > count) {
       bar.say("tracking in the order of the files: given up at " + folder.title(i) +
-              ", " + std::to_string(drive.lost.size()) + " scans were lost");
-      return std::nullopt;
+              ", " + std::to_string(drive.numLost()) + " scans were lost");
+      return false;
     }
   }
-  lost_at = lost.first();
-  return drive;
+  return true;
+}
+
+bool
+isRecording(const Settings& settings)
+{
+  return settings.inputs.size() == 1 && isBag(settings.inputs.front());
+}
+
+/** \return the keyframes among scans with poses; none if the first scan has no point */
+std::vector<std::size_t>
+keyframesOfPoses(const ScanFolder& folder)
+{
+  const double range = medianRange(folder.read(0).points);
+  if (!(range > 0))
+    return {};
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < folder.size(); ++i)
+    poses.push_back(folder.initialPose(i));
+  return keyframesAlong(
+      poses, SweepTrackerOptions().keyframe_way * range, kKeyframeTurn);
+}
+
+/** \return whether scans with poses lie as close together as the sweeps of a drive */
+bool
+areSweeps(const ScanFolder& folder)
+{
+  const std::vector<std::size_t> keyframes = keyframesOfPoses(folder);
+  return !keyframes.empty() &&
+         static_cast<double>(keyframes.size()) <=
+             kShareOfKeyframes * static_cast<double>(folder.size());
 }
 } // namespace
 
@@ -186,8 +147,11 @@ isTracked(const Settings& settings, const ScanFolder& folder)
 {
   if (settings.track != Tracking::kAuto)
     return settings.track == Tracking::kOn;
-  return settings.auto_guess && !folder.posesDiffer() && folder.size() > kFewScans &&
-         settings.deskew != Deskew::kEstimate;
+  if (!settings.auto_guess || folder.size() <= kFewScans ||
+      settings.deskew == Deskew::kEstimate)
+    return false;
+  return !folder.posesDiffer() ||
+         (settings.takes_keyframes && !isRecording(settings) && areSweeps(folder));
 }
 
 std::optional<DriveResult>
@@ -197,17 +161,13 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   ProgressCallback progress = [&bar](const Progress& now) { bar.show(now); };
   if (interrupt != nullptr)
     progress = watched(bar, *interrupt);
-  const std::size_t count = folder.size();
-  std::vector<std::size_t> keyframes;
-  std::string lost_at;
-  std::optional<DriveResult> drive =
-      trackAll(settings, folder, progress, bar, keyframes, lost_at);
-  if (!drive)
+  TrackedDrive tracked(trackerOptions(settings.slam), folder, bar);
+  if (!trackAll(settings, folder, progress, bar, tracked))
     return std::nullopt;
-  folder.replacePoses(drive->poses,
-                      "tracking in the order of the files (" +
-                          std::to_string(drive->lost.size()) + " of " +
-                          std::to_string(count) + " scans lost" + lost_at + ")");
+  const std::size_t count = folder.size();
+  DriveResult drive = tracked.result();
+  folder.replacePoses(drive.poses, tracked.source());
+  const std::vector<std::size_t>& keyframes = tracked.keyframes();
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count)
     return std::nullopt;
   folder.keepOnly(keyframes);
@@ -219,18 +179,14 @@ std::optional<DriveResult>
 selectKeyframes(const Settings& settings, ScanFolder& folder)
 {
   if (!settings.takes_keyframes || !folder.hasPoses() || folder.size() <= kFewScans ||
-      settings.inputs.size() != 1 || !isBag(settings.inputs.front()))
+      !isRecording(settings))
     return std::nullopt;
-  const double range = medianRange(folder.read(0).points);
-  if (!(range > 0))
+  const std::vector<std::size_t> keyframes = keyframesOfPoses(folder);
+  if (keyframes.size() < 2 || 2 * keyframes.size() > folder.size())
     return std::nullopt;
   DriveResult drive = driveOf(folder);
   for (std::size_t i = 0; i < folder.size(); ++i)
     drive.poses.push_back(folder.initialPose(i));
-  const auto keyframes = keyframesAlong(
-      drive.poses, SweepTrackerOptions().keyframe_way * range, kKeyframeTurn);
-  if (keyframes.size() < 2 || 2 * keyframes.size() > folder.size())
-    return std::nullopt;
   folder.keepOnly(keyframes);
   return drive;
 }

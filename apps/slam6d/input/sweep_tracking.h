@@ -22,8 +22,9 @@ bool
 haveTimes(const ScanFolder& folder);
 
 /** \brief Tracks the scans of a folder in order (SweepTracker), and replaces its initial poses by
- * the tracked poses. With --track auto the poses are kept if more than a quarter of the scans is
- * lost. With --every auto only the keyframes remain selected. Prints the result.
+ * the tracked poses, in the world of the given poses. With --track auto the poses are kept if more
+ * than a quarter of the scans is lost. With --every auto only the keyframes remain selected.
+ * Prints the result.
  * \param[in] interrupt ends the work between two scans; may be null
  * \return all sweeps with the tracked poses; none if each selected scan remains a scan of the map
  * \throws IoFailed a scan cannot be read \throws Interrupted a signal came in */

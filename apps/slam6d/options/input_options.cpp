@@ -134,8 +134,9 @@ describeStart(OptionList& list, Settings& s)
       .impliedWord("on")
       .withHelp("auto|on|off: initial poses by tracking the scans in file order, like "
                 "the sweeps of a drive; auto: in folders of more than 60 scans without "
-                "poses, if three in four can be tracked. With stamps and times of "
-                "points, the scans are deskewed along these poses");
+                "poses, or with poses as close together as those of sweeps, if three "
+                "in four can be tracked. With stamps and times of points, the scans "
+                "are deskewed along these poses");
 }
 
 void

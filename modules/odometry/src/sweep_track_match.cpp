@@ -76,12 +76,15 @@ SweepTracker::Track::priorOf(const Current& now) const
   const double steps = std::clamp(pause * per_time, 0.0, kLongestPause);
   const bool goes_on = now.is_timed && steps <= kNoPause;
   const Eigen::Isometry3d from = now.is_timed ? last_.end() : last_.begin;
-  prior.motion.begin =
-      now.prediction ? *now.prediction
-      : goes_on      ? exactlyRigid(from)
-                     : exactlyRigid(from * motionFromTwist(steps * last_.velocity));
   prior.motion.velocity =
       now.is_timed ? Twist(last_.velocity * (now.length * per_time)) : last_.velocity;
+  if (now.prediction) // at the stamp
+    prior.motion.begin =
+        exactlyRigid(*now.prediction * motionFromTwist(now.span.begin / now.length *
+                                                       prior.motion.velocity));
+  else
+    prior.motion.begin =
+        exactlyRigid(goes_on ? from : from * motionFromTwist(steps * last_.velocity));
   prior.goes_on = goes_on && num_lost_ == 0;
   prior.centre = prior.motion.end().translation();
   const auto wider = 1 + static_cast<double>(num_lost_);

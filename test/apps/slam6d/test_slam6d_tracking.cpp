@@ -4,10 +4,12 @@
 #include "apps/support/simulated_drive.h"
 
 #include <pcl6d/common/pose.h>
+#include <pcl6d/io/scan_name.h>
 #include <pcl6d/io/trajectory_io.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace {
@@ -73,8 +75,10 @@ TEST(TrackedDrive, SweepsAreTrackedAndDeskewed)
            {"--track", "--last", "15", "--every", "1", "--no-picture"});
   EXPECT_NE(outcome.err.find("motion during a scan is corrected"), std::string::npos)
       << outcome.err;
-  EXPECT_EQ(summaryOfDrive(out)["pose_source"],
-            "tracking in the order of the files (0 of 16 scans lost)");
+  EXPECT_EQ(
+      summaryOfDrive(out)["pose_source"],
+      "tracking in the order of the files (0 of 16 scans lost), begun with the pose "
+      "of odometry.txt");
   EXPECT_LT(largestError(out), 0.06); // half a voxel of 0.12 m
 }
 
@@ -136,6 +140,79 @@ TEST(TrackedDrive, KeyframesAreTheScansOfTheMapAndAllSweepsHavePoses)
                   (out / "trajectory.kitti").string(),
                   (simulatedDrive() / "groundtruth.txt").string()});
   EXPECT_EQ(measured.exit_code, 0) << measured.err;
+}
+
+namespace {
+/** Links the files of the simulated drive, but for some sweeps, and writes their true poses in
+ * another world, and their stamps. \return the given poses */
+std::vector<Eigen::Isometry3d>
+linkDrive(const fs::path& into, const std::vector<int>& missing)
+{
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+  moved.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitZ()).matrix();
+  moved.translation() << 300, -200, 10;
+  const auto truth = readTrajectory(simulatedDrive() / "groundtruth.txt").poses;
+  std::vector<Eigen::Isometry3d> given;
+  fs::create_directory(into);
+  std::ofstream stamps(into / "times.txt"), rows(into / "odometry.txt");
+  for (int i = 0; i < static_cast<int>(truth.size()); ++i) {
+    if (std::find(missing.begin(), missing.end(), i) != missing.end())
+      continue;
+    const std::string name = pcl6d::scanName(i) + ".pcd";
+    fs::create_symlink(simulatedDrive() / name, into / name);
+    given.push_back(moved * truth[static_cast<std::size_t>(i)]);
+    stamps << 0.1 * i << '\n';
+    const Eigen::IOFormat row(17, Eigen::DontAlignCols, " ", " ");
+    rows << given.back().matrix().topRows<3>().format(row) << '\n';
+  }
+  return given;
+}
+
+/** \return [m] the largest distance of a pose of a run from the given one */
+double
+largestDistance(const fs::path& run, const std::vector<Eigen::Isometry3d>& given)
+{
+  const auto found = readTrajectory(run / "trajectory.kitti").poses;
+  EXPECT_EQ(found.size(), given.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    largest = std::max(largest, distanceBetween(given[i], found[i]).translation);
+  return largest;
+}
+} // namespace
+
+TEST(TrackedDrive, SweepsWithPosesAreTrackedInTheirWorld)
+{
+  const TempFolder folder;
+  const auto given = linkDrive(folder / "in", {30, 31, 32});
+  const Outcome outcome = slam(folder / "in", folder / "out", {"--no-picture"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(summaryOfDrive(folder / "out")["drive"]["files"].size(), 61u);
+  const auto first = readTrajectory(folder / "out/trajectory.kitti").poses[0];
+  EXPECT_LT(distanceBetween(given[0], first).translation, 1e-6);
+  EXPECT_LT(largestDistance(folder / "out", given), 0.12); // as without poses
+  slam(folder / "in",
+       folder / "each",
+       {"--start", "poses", "--last", "3", "--no-verification", "--no-picture"});
+  EXPECT_EQ(summaryOfDrive(folder / "each")["scans"].size(), 4u);
+}
+
+TEST(TrackedDrive, ASweepWithAPoseThatIsLostIsAScanOfTheMap)
+{
+  const TempFolder folder;
+  const auto given = linkDrive(folder / "in", {});
+  const fs::path lost = folder / "in/scan030.pcd";
+  fs::remove(lost);
+  std::ofstream(lost) << "VERSION 0.7\nFIELDS x y z t\nSIZE 4 4 4 4\nTYPE F F F F\n"
+                         "COUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n"
+                         "1 0 0 0\n0 1 0 0.05\n0 0 1 0.09\n";
+  const Outcome outcome =
+      slam(folder / "in", folder / "out", {"--no-picture", "--no-verification"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.out.find("scan030.pcd"), std::string::npos) << outcome.out;
+  const auto summary = summaryOfDrive(folder / "out");
+  EXPECT_TRUE(summary["drive"]["lost"].empty());
+  EXPECT_LT(largestDistance(folder / "out", given), 0.12);
 }
 
 TEST(TrackedDrive, AContinuedDriveTakesTheSweepsThatFollow)

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slam6d/input/tracked_drive.h"
+
+#include <pcl6d/common/pose.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl6d::app {
+
+DriveResult
+driveOf(const ScanFolder& folder)
+{
+  DriveResult drive;
+  drive.first = folder.index(0);
+  for (std::size_t i = 0; i < folder.size(); ++i)
+    drive.files.push_back(folder.name(i));
+  drive.stamps = folder.stamps();
+  if (!drive.stamps.empty())
+    drive.seconds = drive.stamps.back() - drive.stamps.front();
+  return drive;
+}
+
+void
+LostSweeps::see(std::size_t i, SweepStatus status)
+{
+  const bool is_lost = status == SweepStatus::kLost;
+  if (is_lost && !is_lost_)
+    say("lost at sweep ", i, "");
+  else if (!is_lost && is_lost_)
+    say(status == SweepStatus::kFirst ? "the map begins anew at sweep "
+                                      : "found again at sweep ",
+        i,
+        status == SweepStatus::kFirst ? ", from the predicted pose" : "");
+  is_lost_ = is_lost;
+}
+
+void
+LostSweeps::say(const std::string& what, std::size_t i, const std::string& more)
+{
+  constexpr std::size_t kSaid = 20;
+  const std::string sweep =
+      std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")";
+  if (first_.empty())
+    first_ = ", first at sweep " + sweep;
+  if (++num_said_ <= kSaid)
+    bar_.say("tracking: " + what + sweep + more);
+  if (num_said_ == kSaid)
+    bar_.say("tracking: further lost sweeps are only counted");
+}
+
+TrackedDrive::TrackedDrive(const SweepTrackerOptions& options,
+                           const ScanFolder& folder,
+                           ProgressBar& bar)
+: folder_(folder)
+, has_given_(folder.posesDiffer())
+, tracker_(options)
+, lost_(folder, bar)
+, drive_(driveOf(folder))
+{}
+
+/** \return the given motion from the sweep before to this one, in the frame of that before */
+Eigen::Isometry3d
+TrackedDrive::givenMotion(std::size_t i) const
+{
+  return folder_.initialPose(i - 1).inverse() * folder_.initialPose(i);
+}
+
+/** \return the pose by the given motion, where constant velocity is no guide: behind lost sweeps,
+ * and where by the given poses sweeps are missing */
+std::optional<Eigen::Isometry3d>
+TrackedDrive::prediction(std::size_t i) const
+{
+  constexpr std::size_t kBefore = 5; // sweeps: half a second
+  constexpr double kJump = 3;        // no vehicle triples its speed within a sweep
+  if (!has_given_ || drive_.poses.size() < 2)
+    return std::nullopt;
+  double way = 0; // of the longest step before
+  for (std::size_t k = i - std::min(i - 1, kBefore); k < i; ++k)
+    way = std::max(
+        way, distanceBetween(drive_.poses[k - 1], drive_.poses[k]).translation);
+  const Eigen::Isometry3d motion = givenMotion(i);
+  if (!is_lost_ && !(motion.translation().norm() > kJump * way))
+    return std::nullopt;
+  return exactlyRigid(drive_.poses.back() * motion);
+}
+
+void
+TrackedDrive::track(std::size_t i, Sweep sweep)
+{
+  sweep.prediction = prediction(i);
+  const TrackedSweep found = tracker_.track(sweep);
+  is_lost_ = found.status == SweepStatus::kLost;
+  if (found.status == SweepStatus::kFirst)
+    first_ = i;
+  else if (first_ && !is_lost_) { // now the motion within the first sweep is known
+    drive_.poses[*first_] = tracker_.firstOfSegment().T_world_sweep;
+    first_.reset();
+  }
+  lost_.see(i, found.status);
+  drive_.poses.push_back(found.T_world_sweep);
+  num_lost_ += is_lost_ ? 1 : 0;
+  if (is_lost_ && !has_given_)
+    drive_.lost.push_back(folder_.index(i));
+  else if (is_lost_ || found.is_keyframe || found.status == SweepStatus::kFirst ||
+           i + 1 == folder_.size())
+    keyframes_.push_back(i);
+}
+
+DriveResult
+TrackedDrive::result() const
+{
+  DriveResult drive = drive_;
+  if (!has_given_ || drive.poses.empty())
+    return drive;
+  const Eigen::Isometry3d T =
+      folder_.initialPose(0) * drive_.poses.front().inverse();
+  for (Eigen::Isometry3d& pose : drive.poses)
+    pose = exactlyRigid(T * pose);
+  return drive;
+}
+
+std::string
+TrackedDrive::source() const
+{
+  return "tracking in the order of the files (" + std::to_string(num_lost_) + " of " +
+         std::to_string(folder_.size()) + " scans lost" + lost_.first() + ')' +
+         (has_given_ ? ", begun with the pose of " + folder_.poseSource() : "");
+}
+
+} // namespace pcl6d::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "common/progress_bar.h"
+
+#include <pcl6d/common/run_result.h>
+#include <pcl6d/io/scan_folder.h>
+#include <pcl6d/odometry/sweep_tracker.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl6d::app {
+
+/** \return the sweeps of a folder, without poses */
+DriveResult
+driveOf(const ScanFolder& folder);
+
+/** \brief Says where the track was lost, and where it went on. */
+class LostSweeps {
+public:
+  /** Keeps references. */
+  LostSweeps(const ScanFolder& folder, ProgressBar& bar) : folder_(folder), bar_(bar) {}
+
+  /** Tells the status of the next sweep. */
+  void
+  see(std::size_t i, SweepStatus status);
+
+  /** \return where the track was lost first, with a comma before; empty: nowhere */
+  const std::string&
+  first() const
+  {
+    return first_;
+  }
+
+private:
+  void
+  say(const std::string& what, std::size_t i, const std::string& more);
+
+  const ScanFolder& folder_;
+  ProgressBar& bar_;
+  bool is_lost_ = false;
+  std::size_t num_said_ = 0;
+  std::string first_;
+};
+
+/** \brief The sweeps of a folder while they are tracked. Given poses of the scans, if any, fix the
+ * world, and lead on where the track is lost or sweeps are missing; a sweep lost there is a
+ * keyframe, so that it is matched as a scan of the map. */
+class TrackedDrive {
+public:
+  /** Keeps references. */
+  TrackedDrive(const SweepTrackerOptions& options,
+               const ScanFolder& folder,
+               ProgressBar& bar);
+
+  /** \brief Finds the pose of the next sweep. \param[in] i its number in the folder */
+  void
+  track(std::size_t i, Sweep sweep);
+
+  /** \return all sweeps with their poses; named as lost are those without a given pose */
+  DriveResult
+  result() const;
+
+  /** \return where the poses come from, in words */
+  std::string
+  source() const;
+
+  /** \return the numbers of the keyframes */
+  const std::vector<std::size_t>&
+  keyframes() const
+  {
+    return keyframes_;
+  }
+
+  /** \return the number of sweeps without a match so far */
+  std::size_t
+  numLost() const
+  {
+    return num_lost_;
+  }
+
+private:
+  Eigen::Isometry3d
+  givenMotion(std::size_t i) const;
+  std::optional<Eigen::Isometry3d>
+  prediction(std::size_t i) const;
+
+  const ScanFolder& folder_;
+  const bool has_given_;
+  SweepTracker tracker_;
+  LostSweeps lost_;
+  DriveResult drive_; ///< in the world of the tracker
+  std::vector<std::size_t> keyframes_;
+  std::optional<std::size_t> first_; ///< first sweep of a map, without motion so far
+  bool is_lost_ = false;
+  std::size_t num_lost_ = 0;
+};
+
+} // namespace pcl6d::app

@@ -12,6 +12,8 @@
 #include <pcl6d/odometry/sweep_tracker.h>
 #include <pcl6d/sources/bag.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <future>
 #include <limits>
 #include <string>
@@ -33,8 +35,11 @@ constexpr std::size_t kOneIn = 4;
 constexpr double kKeyframeTurn = 10 * kDegree;
 
 /** Scans with poses are the sweeps of a drive if at most this share would be keyframes: each place
- * is then seen by four scans, as nobody who stops for each scan measures. */
-constexpr double kShareOfKeyframes = 0.25;
+ * is then seen by four scans, as nobody who stops for each scan measures. With stamps half a second
+ * apart at most, nobody stopped: spinning lidars turn 5 to 20 times a second. Then half is enough
+ * for tracking to save work. */
+constexpr double kKeyframesOfSweeps = 0.25, kKeyframesOfFastSweeps = 0.5;
+constexpr double kLongestPeriod = 0.5; // [s]
 
 SweepTrackerOptions
 trackerOptions(const Slam6DOptions& slam)
@@ -118,14 +123,28 @@ keyframesOfPoses(const ScanFolder& folder)
       poses, SweepTrackerOptions().keyframe_way * range, kKeyframeTurn);
 }
 
+/** \return whether the stamps of the scans tell that nobody stopped between them */
+bool
+areFast(const ScanFolder& folder)
+{
+  std::vector<double> periods;
+  for (std::size_t i = 1; i < folder.stamps().size(); ++i)
+    periods.push_back(folder.stamps()[i] - folder.stamps()[i - 1]);
+  if (periods.empty())
+    return false;
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle > 0 && *middle <= kLongestPeriod;
+}
+
 /** \return whether scans with poses lie as close together as the sweeps of a drive */
 bool
 areSweeps(const ScanFolder& folder)
 {
   const std::vector<std::size_t> keyframes = keyframesOfPoses(folder);
-  return !keyframes.empty() &&
-         static_cast<double>(keyframes.size()) <=
-             kShareOfKeyframes * static_cast<double>(folder.size());
+  const double most = areFast(folder) ? kKeyframesOfFastSweeps : kKeyframesOfSweeps;
+  return !keyframes.empty() && static_cast<double>(keyframes.size()) <=
+                                   most * static_cast<double>(folder.size());
 }
 } // namespace
 

@@ -77,8 +77,8 @@ TrackedDrive::prediction(std::size_t i) const
     return std::nullopt;
   double way = 0; // of the longest step before
   for (std::size_t k = i - std::min(i - 1, kBefore); k < i; ++k)
-    way = std::max(
-        way, distanceBetween(drive_.poses[k - 1], drive_.poses[k]).translation);
+    way = std::max(way,
+                   distanceBetween(drive_.poses[k - 1], drive_.poses[k]).translation);
   const Eigen::Isometry3d motion = givenMotion(i);
   if (!is_lost_ && !(motion.translation().norm() > kJump * way))
     return std::nullopt;
@@ -113,8 +113,7 @@ TrackedDrive::result() const
   DriveResult drive = drive_;
   if (!has_given_ || drive.poses.empty())
     return drive;
-  const Eigen::Isometry3d T =
-      folder_.initialPose(0) * drive_.poses.front().inverse();
+  const Eigen::Isometry3d T = folder_.initialPose(0) * drive_.poses.front().inverse();
   for (Eigen::Isometry3d& pose : drive.poses)
     pose = exactlyRigid(T * pose);
   return drive;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace {
@@ -132,6 +133,57 @@ TEST(SweepTracker, ARigidlyMovedDriveHasRigidlyMovedPoses)
     EXPECT_LT(error.translation, 5e-3) << i;
     EXPECT_LT(error.rotation, 1e-3) << i;
   }
+}
+
+namespace {
+/** \return a sweep of 24 rings at rest in a tunnel without features along x, 4 m wide, 3 m high */
+Sweep
+tunnelSweep(const Eigen::Isometry3d& pose, pcl6d::Random& random)
+{
+  constexpr int kColumns = 300;
+  constexpr double kFarthest = 40; // [m]
+  Sweep sweep;
+  for (int column = 0; column < kColumns; ++column)
+    for (int ring = 0; ring < 24; ++ring) {
+      const double turn = 2 * M_PI * column / kColumns;
+      const double up = pcl6d::radians(2.5 * ring - 28.75);
+      const Eigen::Vector3d ray(
+          std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
+      const Eigen::Vector3d d = pose.linear() * ray, o = pose.translation();
+      const double side = ((d.y() > 0 ? 2 : -2) - o.y()) / d.y();
+      const double height = ((d.z() > 0 ? 2 : -1) - o.z()) / d.z();
+      const double range = std::min(side, height) + 0.01 * random.normal();
+      if (range < kFarthest)
+        sweep.points.push_back((range * ray).cast<float>());
+    }
+  return sweep;
+}
+} // namespace
+
+// Along the tunnel no surface tells the motion: it is the predicted one, which speeds up. Across,
+// the predictions are off by 2 cm, and the walls decide.
+TEST(SweepTracker, PredictionsDecideAlongATunnel)
+{
+  pcl6d::Random random(3);
+  const auto poseAt = [](int i, double across) {
+    return pcl6d::poseFromEuler({0.01 * i * i, 0.3 * std::sin(0.2 * i) + across, 0},
+                                {0, 0, 0.05 * std::sin(0.3 * i)});
+  };
+  pcl6d::SweepTracker tracker;
+  Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 30; ++i) {
+    Sweep sweep = tunnelSweep(poseAt(i, 0), random);
+    if (i > 0)
+      sweep.prediction =
+          last * (poseAt(i - 1, 0).inverse() * poseAt(i, i % 2 == 0 ? 0.02 : -0.02));
+    const TrackedSweep found = tracker.track(sweep);
+    EXPECT_NE(found.status, SweepStatus::kLost) << i;
+    last = found.T_world_sweep;
+  }
+  const Eigen::Vector3d error =
+      (poseAt(0, 0).inverse() * poseAt(29, 0)).translation() - last.translation();
+  EXPECT_LT(std::abs(error.x()), 0.05); // of 8.4 m
+  EXPECT_LT(error.tail<2>().norm(), 0.02);
 }
 
 TEST(SweepTracker, ThreadsDoNotChangeBits)

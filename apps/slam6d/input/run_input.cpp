@@ -68,7 +68,7 @@ openInput(const Settings& settings,
     const StageTimer timer("tracking", stages);
     drive = trackSweeps(settings, *folder, interrupt);
   }
-  else if (earlier.empty())
+  if (earlier.empty() && !folder->posesAreEstimated())
     drive = selectKeyframes(settings, *folder);
   return {*std::move(folder), std::move(stages), std::move(drive)};
 }

@@ -103,12 +103,6 @@ trackAll(const Settings& settings,
   return true;
 }
 
-bool
-isRecording(const Settings& settings)
-{
-  return settings.inputs.size() == 1 && isBag(settings.inputs.front());
-}
-
 /** \return the keyframes among scans with poses; none if the first scan has no point */
 std::vector<std::size_t>
 keyframesOfPoses(const ScanFolder& folder)
@@ -169,8 +163,7 @@ isTracked(const Settings& settings, const ScanFolder& folder)
   if (!settings.auto_guess || folder.size() <= kFewScans ||
       settings.deskew == Deskew::kEstimate)
     return false;
-  return !folder.posesDiffer() ||
-         (settings.takes_keyframes && !isRecording(settings) && areSweeps(folder));
+  return !folder.posesDiffer() || (settings.takes_keyframes && areSweeps(folder));
 }
 
 std::optional<DriveResult>
@@ -197,8 +190,10 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
 std::optional<DriveResult>
 selectKeyframes(const Settings& settings, ScanFolder& folder)
 {
+  const bool is_recording =
+      settings.inputs.size() == 1 && isBag(settings.inputs.front());
   if (!settings.takes_keyframes || !folder.hasPoses() || folder.size() <= kFewScans ||
-      !isRecording(settings))
+      !is_recording)
     return std::nullopt;
   const std::vector<std::size_t> keyframes = keyframesOfPoses(folder);
   if (keyframes.size() < 2 || 2 * keyframes.size() > folder.size())

@@ -31,8 +31,9 @@ haveTimes(const ScanFolder& folder);
 std::optional<DriveResult>
 trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* interrupt);
 
-/** \brief Selects keyframes among the sweeps of a recording with poses, with --every auto: for more
- * than 60 sweeps, at most half of which are keyframes; scans taken far apart are all kept.
+/** \brief Selects keyframes among the sweeps of a recording by its poses, with --every auto, where
+ * they are not tracked: for more than 60 sweeps, at most half of which are keyframes; scans taken
+ * far apart are all kept.
  * \return all sweeps with their poses; none: each selected scan remains a scan of the map
  * \throws IoFailed the first sweep cannot be read */
 std::optional<DriveResult>

@@ -66,21 +66,24 @@ TrackedDrive::givenMotion(std::size_t i) const
   return folder_.initialPose(i - 1).inverse() * folder_.initialPose(i);
 }
 
-/** \return the pose by the given motion, where constant velocity is no guide: behind lost sweeps,
- * and where by the given poses sweeps are missing */
+/** \return the pose by the given motion, where constant velocity is no guide: for the second sweep,
+ * behind lost ones, where surfaces leave a direction open (a tunnel), and where by the given poses
+ * sweeps are missing */
 std::optional<Eigen::Isometry3d>
 TrackedDrive::prediction(std::size_t i) const
 {
   constexpr std::size_t kBefore = 5; // sweeps: half a second
   constexpr double kJump = 3;        // no vehicle triples its speed within a sweep
-  if (!has_given_ || drive_.poses.size() < 2)
+  if (!has_given_ || i == 0)
     return std::nullopt;
+  const Eigen::Isometry3d motion = givenMotion(i);
+  if (i == 1 || is_lost_ || is_open_)
+    return exactlyRigid(drive_.poses.back() * motion);
   double way = 0; // of the longest step before
   for (std::size_t k = i - std::min(i - 1, kBefore); k < i; ++k)
     way = std::max(way,
                    distanceBetween(drive_.poses[k - 1], drive_.poses[k]).translation);
-  const Eigen::Isometry3d motion = givenMotion(i);
-  if (!is_lost_ && !(motion.translation().norm() > kJump * way))
+  if (!(motion.translation().norm() > kJump * way))
     return std::nullopt;
   return exactlyRigid(drive_.poses.back() * motion);
 }
@@ -91,6 +94,7 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
   sweep.prediction = prediction(i);
   const TrackedSweep found = tracker_.track(sweep);
   is_lost_ = found.status == SweepStatus::kLost;
+  is_open_ = found.free_directions > 0;
   if (found.status == SweepStatus::kFirst)
     first_ = i;
   else if (first_ && !is_lost_) { // now the motion within the first sweep is known

@@ -95,7 +95,7 @@ private:
   DriveResult drive_; ///< in the world of the tracker
   std::vector<std::size_t> keyframes_;
   std::optional<std::size_t> first_; ///< first sweep of a map, without motion so far
-  bool is_lost_ = false;
+  bool is_lost_ = false, is_open_ = false; ///< the sweep before
   std::size_t num_lost_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 #include <pcl6d/common/pose.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/registration/localizability.h>
 #include <pcl6d/registration/plane_sums.h>
 
@@ -49,6 +50,14 @@ struct Pair {
   normalised() const
   {
     return std::abs(distance) / deviation;
+  }
+
+  /** \return whether the point lies on a plane of the map \param[in] usual of normalised() */
+  bool
+  isOnPlane(double usual) const
+  {
+    return surface && surface->shape == VoxelShape::kPlane &&
+           normalised() <= kKernelDeviations * std::max(1.0, usual);
   }
 };
 
@@ -227,6 +236,15 @@ private:
     normal_.bottomRightCorner<6, 6>() = full(data_.end);
     Vector12 side;
     side << data_.begin_side, data_.end_side;
+    if (prior_.holds_open) {
+      const Matrix6 fixed = fixedPart(match.deviation);
+      for (int r = 0; r < 12; r += 6) {
+        side.segment<6>(r) = (fixed.transpose() * side.segment<6>(r)).eval();
+        for (int c = 0; c < 12; c += 6)
+          normal_.block<6, 6>(r, c) =
+              (fixed.transpose() * normal_.block<6, 6>(r, c) * fixed).eval();
+      }
+    }
     addPrior(match.motion, side);
     return normal_.ldlt().solve(-side);
   }
@@ -304,21 +322,47 @@ private:
     const Matrix12 covariance = normal_.ldlt().solve(Matrix12::Identity());
     match.begin_covariance = covariance.topLeftCorner<6, 6>();
     match.end_information = inverted<6>(Matrix6(covariance.bottomRightCorner<6, 6>()));
-    match.free_directions = countFree(match.deviation);
+    match.free_directions = localizability(match.deviation).openDirections();
   }
 
-  /** \return the directions that the planes do not fix (Localizability) */
-  int
-  countFree(double deviation) const
+  /** \return how well the planes fix each motion about the centre */
+  Localizability
+  localizability(double deviation) const
   {
     PlaneAccumulator sums;
     for (const Pair& pair : pairs_)
-      if (pair.surface && pair.surface->shape == VoxelShape::kPlane &&
-          pair.normalised() <= kKernelDeviations * std::max(1.0, deviation))
+      if (pair.isOnPlane(deviation))
         sums.add(pair.arm,
                  pair.arm - pair.distance * pair.surface->normal,
                  pair.surface->normal);
-    return localizabilityOf(sums.sums()).openDirections();
+    return localizabilityOf(sums.sums());
+  }
+
+  /** \return the projection of motions on those that the planes fix: without the open ones, to
+   * which the fixed ones are orthogonal by the displacements of the points */
+  Matrix6
+  fixedPart(double deviation) const
+  {
+    const Localizability fixed = localizability(deviation);
+    const int num_open = fixed.openDirections();
+    Matrix6 part = Matrix6::Identity();
+    if (num_open == 0)
+      return part;
+    Matrix6 metric = Matrix6::Zero();
+    double count = 0;
+    for (const Pair& pair : pairs_)
+      if (pair.isOnPlane(deviation)) {
+        Eigen::Matrix<double, 3, 6> moved;
+        moved << Eigen::Matrix3d::Identity(), -skew(pair.arm);
+        metric += moved.transpose() * moved;
+        ++count;
+      }
+    for (int k = 0; k < num_open; ++k) {
+      Twist open = fixed.directions.col(k); // about the centroid
+      open.head<3>() -= Eigen::Vector3d(open.tail<3>()).cross(fixed.centroid);
+      part -= open * (open.transpose() * metric) / count;
+    }
+    return part;
   }
 
   const LocalMap& map_;

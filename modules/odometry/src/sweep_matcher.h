@@ -16,10 +16,11 @@ struct SweepPrior {
   /** [1/m^2, 1/(m rad), 1/rad^2] of the begin, for motions about `centre`, in world axes */
   Matrix6 begin_information = Matrix6::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m, world]
-  bool goes_on = true;    ///< the sweep begins where the matched sweep before ended
-  double translation = 1; ///< [m] deviation of the velocity, over the sweep
-  double rotation = 1;    ///< [rad]
-  double gate = 1;        ///< [m] largest error of a point that follows from the prior
+  bool goes_on = true;     ///< the sweep begins where the matched sweep before ended
+  bool holds_open = false; ///< surfaces count only in directions that they fix
+  double translation = 1;  ///< [m] deviation of the velocity, over the sweep
+  double rotation = 1;     ///< [rad]
+  double gate = 1;         ///< [m] largest error of a point that follows from the prior
 };
 
 /** \brief Knobs of a match. */

@@ -120,6 +120,7 @@ SweepTracker::Track::begin(const Current& now)
   last_end_ = now.begin + (now.is_timed ? now.length : 0);
   num_matched_ = 1;
   num_lost_ = 0;
+  is_open_ = true;
   usual_fit_ = usual_overlap_ = usual_deviation_ = 0;
   map_ = emptyMap();
   addToMap(now, last_);
@@ -208,6 +209,7 @@ SweepTracker::Track::accept(const Current& now,
   end_information_ = match.end_information;
   information_centre_ = prior.centre;
   correlation_ = match.correlation;
+  is_open_ = match.free_directions > 0;
   num_lost_ = 0;
   ++num_matched_;
   TrackedSweep found = describe(now, motion);

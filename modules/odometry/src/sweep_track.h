@@ -68,6 +68,8 @@ private:
   TrackedSweep
   lost(const Current& now);
 
+  odometry::SweepMotion
+  expectedMotion(const Current& now, double pause, bool is_open) const;
   odometry::SweepPrior
   priorOf(const Current& now) const;
   bool
@@ -134,6 +136,7 @@ private:
          rotation_sq_ = 0; ///< of the deviations from constant velocity
   double usual_fit_ = 0, usual_overlap_ = 0, usual_deviation_ = 0;
   double correlation_ = 1;
+  bool is_open_ = true; ///< surfaces left a direction of the last sweep free
 
   Eigen::Vector3d cut_at_ =
       Eigen::Vector3d::Zero(); ///< where far voxels were dropped last

@@ -12,6 +12,7 @@ namespace pcl6d {
 
 using odometry::Matrix6;
 using odometry::SweepMatch;
+using odometry::SweepMotion;
 using odometry::SweepPrior;
 
 namespace {
@@ -66,25 +67,41 @@ SweepTracker::Track::hasPause(const Current& now) const
   return steps > kNoPause || num_lost_ > 0;
 }
 
-/** \return the motion at constant velocity with its uncertainty */
+/** \return the motion at constant velocity, or by the prediction \param[in] pause [sweeps] before it
+ * \param[in] is_open surfaces fix no velocity: it follows from the prediction, too */
+SweepMotion
+SweepTracker::Track::expectedMotion(const Current& now,
+                                    double pause,
+                                    bool is_open) const
+{
+  const Eigen::Isometry3d from = now.is_timed ? last_.end() : last_.begin;
+  SweepMotion motion;
+  motion.velocity = now.is_timed ? Twist(last_.velocity * (now.length / last_length_))
+                                 : last_.velocity;
+  if (!now.prediction) {
+    motion.begin = exactlyRigid(from * motionFromTwist(pause * last_.velocity));
+    return motion;
+  }
+  motion.begin = exactlyRigid( // the prediction is at the stamp
+      *now.prediction * motionFromTwist(now.span.begin / now.length * motion.velocity));
+  if (is_open) {
+    const double steps = (now.begin - last_begin_) / now.length;
+    motion.velocity =
+        twistFromMotion(last_.begin.inverse() * motion.begin) / std::max(steps, 0.1);
+  }
+  return motion;
+}
+
+/** \return the expected motion with its uncertainty */
 SweepPrior
 SweepTracker::Track::priorOf(const Current& now) const
 {
   SweepPrior prior;
-  const double per_time = 1 / last_length_;
   const double pause = now.begin - (now.is_timed ? last_end_ : last_begin_);
-  const double steps = std::clamp(pause * per_time, 0.0, kLongestPause);
-  const bool goes_on = now.is_timed && steps <= kNoPause;
-  const Eigen::Isometry3d from = now.is_timed ? last_.end() : last_.begin;
-  prior.motion.velocity =
-      now.is_timed ? Twist(last_.velocity * (now.length * per_time)) : last_.velocity;
-  if (now.prediction) // at the stamp
-    prior.motion.begin =
-        exactlyRigid(*now.prediction * motionFromTwist(now.span.begin / now.length *
-                                                       prior.motion.velocity));
-  else
-    prior.motion.begin =
-        exactlyRigid(goes_on ? from : from * motionFromTwist(steps * last_.velocity));
+  const double steps = std::clamp(pause / last_length_, 0.0, kLongestPause);
+  prior.holds_open = now.prediction && is_open_;
+  const bool goes_on = now.is_timed && steps <= kNoPause && !prior.holds_open;
+  prior.motion = expectedMotion(now, goes_on ? 0 : steps, prior.holds_open);
   prior.goes_on = goes_on && num_lost_ == 0;
   prior.centre = prior.motion.end().translation();
   const auto wider = 1 + static_cast<double>(num_lost_);

@@ -19,7 +19,8 @@ struct Sweep {
   std::vector<double> times;
   std::optional<double> stamp; ///< [s] missing: the sweep begins where the
                                ///< sweep before ended
-  /** T_world_sensor at the stamp, from another source; missing: constant velocity */
+  /** T_world_sensor at the stamp, from another source, where matching starts, and which decides
+   * where surfaces leave a direction free; missing: constant velocity */
   std::optional<Eigen::Isometry3d> prediction;
 };
 
@@ -55,8 +56,8 @@ struct TrackedSweep {
       0; ///< [m] of the begin and end from the prediction, at the typical range
   /** of begin, for motions (translation [m], rotation [rad]) in world axes about the sensor */
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  int free_directions = 0;  ///< of the pose, fixed by constant velocity,
-                            ///< not by a surface
+  int free_directions = 0;  ///< of the pose, not fixed by a surface, but by the
+                            ///< prediction or constant velocity
   bool is_keyframe = false; ///< much of the sweep is new; the keyframes
                             ///< together cover the map
 };

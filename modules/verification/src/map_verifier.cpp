@@ -109,9 +109,10 @@ std::size_t
 linkBetween(std::size_t scan, std::size_t other, const MapVerification& map)
 {
   const auto [from, to] = std::minmax({scan, other});
-  const auto link = std::find_if(map.links.begin(), map.links.end(), [&](const auto& l) {
-    return l.from == from && l.to == to;
-  });
+  const auto link =
+      std::find_if(map.links.begin(), map.links.end(), [&](const auto& l) {
+        return l.from == from && l.to == to;
+      });
   return static_cast<std::size_t>(link - map.links.begin());
 }
 } // namespace

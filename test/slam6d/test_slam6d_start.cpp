@@ -88,19 +88,25 @@ TEST(Slam6DStart, OrderIsKeptIfItConnectsAllScans)
   }
 }
 
+pcl6d::test::PillarRoom
+otherRoom()
+{
+  pcl6d::test::PillarRoom room;
+  room.walls = {Eigen::Vector3d(-2.6, -9, -1), Eigen::Vector3d(2.5, 4, 1.4)};
+  room.pillars = {{Eigen::Vector3d(-1, 2.5, -1), Eigen::Vector3d(-0.2, 3.3, 1.4)}};
+  return room;
+}
+
 /** Scans of a room with two of another room between them, which the order cannot connect. */
 std::vector<Points>
 brokenOrder()
 {
-  pcl6d::test::PillarRoom elsewhere;
-  elsewhere.walls = {Eigen::Vector3d(-2.6, -9, -1), Eigen::Vector3d(2.5, 4, 1.4)};
-  elsewhere.pillars = {{Eigen::Vector3d(-1, 2.5, -1), Eigen::Vector3d(-0.2, 3.3, 1.4)}};
   pcl6d::Random random(5);
   std::vector<Points> scans = turned().scans;
   for (int i = 0; i < 2; ++i)
     scans.insert(
         scans.begin() + 1,
-        elsewhere.scan(
+        otherRoom().scan(
             pcl6d::poseFromEuler({0.2, -3.0 + i, 0}, {0, 0, 1.5 * i}), random, 0.03));
   return scans;
 }
@@ -119,6 +125,24 @@ TEST(Slam6DStart, WhereTheOrderIsBrokenTheResultIsThatOfAnyOrder)
   const Slam6DResult expected = resultOf(brokenOrder(), any_order);
   EXPECT_TRUE(expected.starts.empty());
   expectSamePoses(result, expected);
+}
+
+TEST(Slam6DStart, AGapIsASingleBreakOfTheOrder)
+{
+  // Three of eight scans, more than a quarter, do not match the map; they match each other.
+  std::vector<Points> scans = Walk().scans;
+  scans.resize(5);
+  pcl6d::Random random(6);
+  for (int i = 0; i < 3; ++i)
+    scans.push_back(
+        otherRoom().scan(pcl6d::planarPose(0.2, -3 + 0.4 * i, 0), random, 0.03));
+  const Slam6DResult result = resultOf(scans);
+  ASSERT_EQ(result.starts.size(), 1U);
+  EXPECT_TRUE(result.starts[0].is_complete && result.starts[0].is_kept);
+  EXPECT_EQ(result.starts[0].connected, 5U);
+  EXPECT_FALSE(result.trusted());
+  for (std::size_t i = 5; i < 8; ++i)
+    EXPECT_EQ(result.scans[i].state, pcl6d::ScanState::kPredicted) << i;
 }
 
 TEST(Slam6DStart, TurnsThatNoMotionPredictsAreFound)

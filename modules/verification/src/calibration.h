@@ -98,6 +98,9 @@ constexpr double kPriorOdds = 0.1;
 constexpr std::size_t kLeastPatches = 30;
 constexpr double kLeastConfirmation = 0.1;
 
+/** A second pose is as good with this share of the confirmed surface, or more. */
+constexpr double kTwinShare = 0.5;
+
 /** Least number of a scan's own patches for verification. */
 constexpr std::size_t kLeastOwnPatches = 12;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
 #include "map_doubts.h"
 
 #include <pcl6d/common/angle.h>
@@ -14,6 +15,8 @@
 #include <cmath>
 
 namespace pcl6d {
+using verification::kMostBackground;
+using verification::kTwinShare;
 
 // For transfer to other processes.
 
@@ -49,9 +52,6 @@ constexpr std::size_t kAskedPoints = 300;
 
 /** Least share of informative points for a link, in both directions. */
 constexpr double kLeastSpeaking = 0.05;
-
-/** A second pose is as good with this share of the confirmed surface, or more. */
-constexpr double kTwinShare = 0.5;
 
 Eigen::Vector3d
 centreOf(const Points& points)
@@ -102,6 +102,18 @@ surestLinkOf(std::size_t scan, const MapVerification& map)
         (!most || link.patches > most->patches))
       most = &link;
   return most;
+}
+
+/** \return the index of the link between two scans, which exists */
+std::size_t
+linkBetween(std::size_t scan, std::size_t other, const MapVerification& map)
+{
+  const auto [from, to] = std::minmax({scan, other});
+  const auto link =
+      std::find_if(map.links.begin(), map.links.end(), [&](const auto& l) {
+        return l.from == from && l.to == to;
+      });
+  return static_cast<std::size_t>(link - map.links.begin());
 }
 } // namespace
 
@@ -183,7 +195,7 @@ MapVerifier::fitsElsewhere(std::size_t scan,
     return linkEvidence(scans_[other], scans_[scan], poses[other].inverse() * pose);
   };
   const LinkEvidence there = evidenceAt(beside, T_world_scan);
-  const LinkEvidence here = evidenceAt(beside, poses[scan]);
+  const LinkEvidence& here = evidence_[linkBetween(scan, beside, map)];
   auto confirmed_there = static_cast<double>(there.sight.confirmed_patches);
   auto confirmed_here = static_cast<double>(here.sight.confirmed_patches);
   if (testLink(there, map.background).trust != LinkTrust::kGood ||
@@ -203,14 +215,16 @@ MapVerifier::fitsElsewhere(std::size_t scan,
   return confirmed_there >= kTwinShare * confirmed_here;
 }
 
-/** Finds second poses of scans placed without a prior pose. */
+/** Finds second poses of scans placed without a prior pose, where good links are possible at all. */
 void
 MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
                        MapVerification& map) const
 {
+  if (map.background > kMostBackground)
+    return; // rays are inconclusive
   std::vector<Rejection> doubts(scans_.size());
   sharedFor(options_.sharing, options_.num_threads, doubts, [&](std::size_t i) {
-    if (options_.unsure[i] && map.scans[i].tied)
+    if (options_.unsure[i] && map.scans[i].tied && !scans_[i].abstains())
       doubts[i] = twinOf(i, poses, map);
   });
   for (std::size_t i = 0; i < doubts.size(); ++i)
@@ -231,6 +245,8 @@ MapVerifier::twinOf(std::size_t scan,
   if (scan > 0 && (besides.empty() || besides.front() != scan - 1))
     besides.push_back(scan - 1);
   for (const std::size_t beside : besides) {
+    if (scans_[beside].abstains())
+      continue; // no link with it is good
     const Eigen::Vector3d up =
         poses[beside].linear().transpose() * Eigen::Vector3d::UnitZ();
     for (const Eigen::Isometry3d& T : pcl6d::findTwins(

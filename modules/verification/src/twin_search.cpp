@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
+#include "evidence_parts.h"
+
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/number_range.h>
 #include <pcl6d/common/pose.h>
@@ -16,6 +19,7 @@
 #include <vector>
 
 namespace pcl6d {
+using namespace verification;
 
 namespace {
 /** [voxels] Size of the cells of a plan; larger if a side would have too many cells, to limit the
@@ -34,6 +38,21 @@ constexpr std::size_t kShiftsTried = 4;
 
 /** Poses closer than this distance and turn are equal. */
 constexpr double kOtherVoxels = 6, kOtherTurn = 0.2; // [rad]
+
+/** A rough match ends this near to an earlier pose, as share of the above: within the pair
+ * distance, 1.7 voxels, where the surfaces of both are pairs already. */
+constexpr double kCaught = 1.0 / 4;
+
+/** Number of steps of a rough match: 5 while the pair distance shrinks, and until most starts rest. */
+constexpr int kRoughSteps = 30;
+
+/** The last steps of a match, as share of those of a rough match: 2e-3 voxels and 4e-4 rad, which
+ * leaves less than the resolution of link tests (kResolution) at both ends of a scan. */
+constexpr double kRest = 0.1;
+
+/** A roughly matched pose is hopeless with less confirmed surface than this share of the known pose's:
+ * half of what a second pose needs, for what the rough match leaves. */
+constexpr double kLeastConfirmed = kTwinShare / 2;
 
 /** Tolerance of the length of unit vectors: for the rotation of a rigid pose. */
 constexpr double kUnitLength = 2e-3;
@@ -81,7 +100,7 @@ cellFor(const VerifiedScan& scan)
 std::vector<Eigen::Vector2i>
 votedShifts(const Plan& fixed, const Plan& moved)
 {
-  constexpr int kSide = 4 * kMostCells;
+  constexpr int kSide = 2 * kMostCells + 4; // shifts between any two cells, rounded
   std::vector<std::uint32_t> votes(static_cast<std::size_t>(kSide) * kSide, 0);
   const auto at = [](const Eigen::Vector2i& shift) {
     const int cell = (shift.y() + kSide / 2) * kSide + shift.x() + kSide / 2;
@@ -139,28 +158,143 @@ votedStarts(const VerifiedScan& first,
   return starts;
 }
 
-/** \return the matched pose from a start, if converged */
-std::optional<Eigen::Isometry3d>
-matchedFrom(const VerifiedScan& first,
-            const VerifiedScan& second,
-            const Eigen::Isometry3d& start)
-{
-  const double voxel = std::max(first.voxel(), second.voxel());
-  IcpOptions options; // equal to Slam6D's
-  options.metric = Metric::kGicp;
-  options.gicp_epsilon = kReducedGicpEpsilon;
-  options.facing_normals = true;
-  options.max_distance = kPlanePairVoxels * voxel;
-  options.max_distance_start = 6 * voxel;
-  options.distance_decay = 0.75;
-  options.shrinking_stride = 3;
-  options.num_threads = 1;
-  const IcpResult found =
-      icp({first.surfaces().part()}, second.surfaces().source(), start, options);
-  if (found.stop != IcpStop::kAtRest)
-    return std::nullopt;
-  return found.T_target_source;
-}
+/** An even selection of the points of a scan, with their normals. */
+struct Sample {
+  Sample(const IcpModel& surfaces, std::size_t count)
+  {
+    const std::size_t stride =
+        std::max<std::size_t>(1, surfaces.points().size() / count);
+    for (std::size_t i = stride / 2; i < surfaces.points().size(); i += stride) {
+      points.push_back(surfaces.points()[i]);
+      normals.push_back(surfaces.normals()[i]);
+    }
+  }
+
+  Points points;
+  Normals normals;
+};
+
+/** Matches starts by as many points as link tests use: each roughly, and on to rest if the rough match
+ * may be a second pose. */
+class TwinMatcher {
+public:
+  TwinMatcher(const VerifiedScan& first,
+              const VerifiedScan& second,
+              const Eigen::Isometry3d& T_first_second)
+  : first_(first)
+  , second_(second)
+  , voxel_(std::max(first.voxel(), second.voxel()))
+  , sample_(second.surfaces(), kPairedPoints)
+  , known_(T_first_second)
+  , confirmed_(static_cast<double>(sightAt(known_).confirmed_patches))
+  {}
+
+  void
+  tryFrom(const Eigen::Isometry3d& start)
+  {
+    const auto rough = roughMatch(start);
+    if (!rough)
+      return;
+    const IcpResult found =
+        icp({first_.surfaces().part()}, sampleSource(), *rough, matchOptions());
+    if (found.stop == IcpStop::kAtRest && !isAtPlace(found.T_target_source, 1))
+      twins_.push_back(found.T_target_source);
+  }
+
+  const std::vector<Eigen::Isometry3d>&
+  twins() const
+  {
+    return twins_;
+  }
+
+private:
+  IcpSource
+  sampleSource() const
+  {
+    return {&sample_.points, &sample_.normals};
+  }
+
+  IcpOptions
+  matchOptions() const
+  {
+    IcpOptions options; // equal to Slam6D's
+    options.metric = Metric::kGicp;
+    options.gicp_epsilon = kReducedGicpEpsilon;
+    options.facing_normals = true;
+    options.max_distance = kPlanePairVoxels * voxel_;
+    options.translation_epsilon = kRest * kSettled * voxel_;
+    options.rotation_epsilon = kRest * kSettled * kOtherTurn;
+    options.num_threads = 1;
+    return options;
+  }
+
+  /** \return whether a pose is near the known pose or a found one
+   * \param[in] share of the distance and the turn below which poses are equal */
+  bool
+  isAtPlace(const Eigen::Isometry3d& pose, double share) const
+  {
+    const auto isNear = [&](const Eigen::Isometry3d& other) {
+      const MotionSize apart = distanceBetween(other, pose);
+      return apart.translation < share * kOtherVoxels * voxel_ &&
+             apart.rotation < share * kOtherTurn;
+    };
+    return isNear(known_) || std::any_of(twins_.begin(), twins_.end(), isNear);
+  }
+
+  SightEvidence
+  sightAt(const Eigen::Isometry3d& pose) const
+  {
+    const SurfaceFit fit =
+        settledFit(first_, second_, pose, voxel_, kProbedPoints, kProbedSteps, false);
+    return sightBothWays(first_, second_, pose, voxel_, fit);
+  }
+
+  /** \return whether rays contradict a pose however often right links are contradicted, or confirm
+   * too little surface */
+  bool
+  isHopeless(const Eigen::Isometry3d& pose) const
+  {
+    const SightEvidence sight = sightAt(pose);
+    const RaysAgainst against =
+        raysAgainst(sight.contradicted_patches,
+                    sight.patches,
+                    {kMostBackground, kLeastBackground, kBackgroundPrecision});
+    return probabilityOf(against) > kWrongAbove ||
+           static_cast<double>(sight.confirmed_patches) < kLeastConfirmed * confirmed_;
+  }
+
+  /** \return the roughly matched pose; none: it leads to the known or a found pose, or is
+   * hopeless */
+  std::optional<Eigen::Isometry3d>
+  roughMatch(const Eigen::Isometry3d& start) const
+  {
+    IcpOptions options = matchOptions();
+    options.max_distance_start = kOtherVoxels * voxel_;
+    options.distance_decay = 0.75;
+    options.max_iterations = kRoughSteps;
+    options.translation_epsilon = kSettled * voxel_;
+    options.rotation_epsilon = kSettled * kOtherTurn;
+    IcpHooks hooks;
+    hooks.observer = [&](const IcpIteration& now) {
+      return now.max_distance > options.max_distance ||
+             !isAtPlace(now.T_target_source, kCaught);
+    };
+    const IcpResult found =
+        icp({first_.surfaces().part()}, sampleSource(), start, options, hooks);
+    if (found.stop == IcpStop::kTooFewPairs || found.stop == IcpStop::kDiverged ||
+        isAtPlace(found.T_target_source, 1) || isHopeless(found.T_target_source))
+      return std::nullopt;
+    return found.T_target_source;
+  }
+
+  const VerifiedScan& first_;
+  const VerifiedScan& second_;
+  double voxel_;
+  Sample sample_; ///< of the second scan
+  Eigen::Isometry3d known_;
+  double confirmed_; ///< patches at the known pose
+  std::vector<Eigen::Isometry3d> twins_;
+};
 } // namespace
 
 std::vector<Eigen::Isometry3d>
@@ -172,20 +306,11 @@ findTwins(const VerifiedScan& first,
   if (!isRigid(T_first_second))
     throw BadArgument("T_first_second is not a rigid motion");
   require(std::abs(up.norm() - 1) < kUnitLength, "up", up.transpose(), "a unit vector");
-  const double voxel = std::max(first.voxel(), second.voxel());
   const auto level = shortestRotation(up, Eigen::Vector3d::UnitZ());
-  std::vector<Eigen::Isometry3d> twins;
-  for (const auto& start : votedStarts(first, second, level, T_first_second)) {
-    const auto place = matchedFrom(first, second, level.inverse() * start);
-    const auto isNear = [&](const Eigen::Isometry3d& other) {
-      const MotionSize apart = distanceBetween(other, *place);
-      return apart.translation < kOtherVoxels * voxel && apart.rotation < kOtherTurn;
-    };
-    if (place && !isNear(T_first_second) &&
-        std::none_of(twins.begin(), twins.end(), isNear))
-      twins.push_back(*place);
-  }
-  return twins;
+  TwinMatcher matcher(first, second, T_first_second);
+  for (const auto& start : votedStarts(first, second, level, T_first_second))
+    matcher.tryFrom(level.inverse() * start);
+  return matcher.twins();
 }
 
 } // namespace pcl6d

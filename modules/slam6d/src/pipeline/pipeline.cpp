@@ -73,6 +73,7 @@ takeResultOfFirst(SlamState& state, const SlamContext& context)
   if (!context.sharing)
     return;
   state.next = ofFirst(state.next, context);
+  state.breaks = ofFirst(state.breaks, context);
   const std::string bytes =
       ofFirst(context.isFirst() ? packed(state.result) : std::string(), context);
   if (!context.isFirst())

@@ -73,6 +73,8 @@ struct SlamState {
   std::size_t next = 0;               ///< first unregistered scan
   std::size_t improved = 0;           ///< number of scans at the last relaxation
   bool is_order_tried = false;        ///< the order of the scans is only a trial
+  std::size_t breaks = 0; ///< of a trial: scans matched neither with the map nor with a
+                          ///< lost scan before
   bool is_second_look =
       false; ///< lost scans are recovered, and all scans relaxed, once more
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "recovery/piece_matcher.h"
 #include "recovery/recovery_stage.h"
 #include "registered.h"
 
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -50,58 +50,19 @@ RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
 std::vector<RecoveryStage::Piece>
 RecoveryStage::piecesOf(const ProgressCallback& report, const Slam6DResult& result)
 {
-  own_ = result.scans;
-  for (ScanResult& scan : own_)
-    scan.state = ScanState::kPredicted; // pieces do not use each other
+  PieceMatcher matcher(options_, result.parameters, scans_, recovery_);
   std::vector<Piece> pieces;
-  std::optional<ScanMatcher> matcher;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     if (report)
       report({"matching what is lost", i, result.scans.size()});
-    if (result.scans[i].state != ScanState::kPredicted) {
-      matcher.reset();
-      continue;
-    }
-    if (matcher && follow(i, *matcher, own_)) {
+    const bool is_following = matcher.take(result.scans[i]);
+    if (is_following)
       pieces.back().push_back(i);
-      continue;
-    }
-    if (!pieces.empty())
-      for (const std::size_t earlier : pieces.back())
-        own_[earlier].state = ScanState::kPending; // of a different piece
-    own_[i].T_world_scan = result.scans[i].T_world_scan;
-    matcher.emplace(options_, result.parameters);
-    matcher->fix(scans_.reduced()[i], scans_.measured()[i], own_[i]);
-    pieces.push_back({i});
+    else if (result.scans[i].state == ScanState::kPredicted)
+      pieces.push_back({i});
   }
+  own_ = matcher.own();
   return pieces;
-}
-
-/** Matches a scan with the piece before. \return whether the match is accepted */
-bool
-RecoveryStage::follow(std::size_t i, ScanMatcher& matcher, std::vector<ScanResult>& own)
-{
-  ScanResult& scan = own[i];
-  const ScanResult& before = own[i - 1];
-  scan.T_world_scan =
-      extrapolateOdometry(before.T_world_scan, before.initial_pose, scan.initial_pose);
-  scan.rejections.clear();
-  matcher.match(scans_.reduced()[i],
-                scans_.measured()[i],
-                before.initial_pose.inverse() * scan.initial_pose,
-                scan,
-                [&](const ScanResult& found) {
-                  return recovery_.rejectionOf(i, found.T_world_scan, own);
-                });
-  if (isRegistered(scan))
-    return true;
-  const auto found =
-      isBounded(options_) ? recovery_.findByMotion(i, own) : recovery_.find(i, own);
-  if (!found)
-    return false;
-  scan.T_world_scan = found->T_world_scan;
-  matcher.matchFound(scans_.reduced()[i], scans_.measured()[i], scan);
-  return isRegistered(scan);
 }
 
 /** Registers pieces by the odometry of the scans after them, and removes these pieces from the

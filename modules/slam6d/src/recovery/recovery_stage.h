@@ -39,8 +39,6 @@ private:
 
   std::vector<Piece>
   piecesOf(const ProgressCallback& report, const Slam6DResult& result);
-  bool
-  follow(std::size_t scan, ScanMatcher& matcher, std::vector<ScanResult>& own);
   JoinedScans
   join(const std::vector<Piece>& pieces,
        const ProgressCallback& report,

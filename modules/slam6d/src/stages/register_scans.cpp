@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../registered.h"
 #include "../task_names.h"
+#include "recovery/piece_matcher.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -10,9 +11,10 @@
 namespace pcl6d::slam6d {
 
 namespace {
-/** The order of the scans is abandoned when more than one in kOneIn could not be matched with the
- * previous scan. In a random order of n scans, each overlapping k scans, consecutive scans overlap
- * with probability k / n: in large folders most scans are lost. */
+/** The order of the scans is abandoned after more breaks than one in kOneIn scans. In a random order of
+ * n scans, each overlapping k scans, consecutive scans overlap with probability k / n: in large
+ * folders most scans break the order. A gap in a drive is a single break, although the scans after it
+ * do not match the map. */
 constexpr std::size_t kOneIn = 4;
 
 /** Each scan is registered separately: cancelling keeps the scans registered before. */
@@ -35,10 +37,16 @@ public:
   {
     takeInEarlier(state);
     const std::size_t total = state.size();
+    PieceMatcher pieces(
+        state.options, state.result.parameters, state.scans, state.recovery);
+    state.breaks = 0;
     while (state.next < total && !isOrderHopeless(state) &&
            !context.cancelled.exchange(false)) {
       const std::size_t scan = state.next;
       registerScan(scan, state, context);
+      if (state.is_order_tried && !pieces.take(state.result.scans[scan]) &&
+          !isRegistered(state.result.scans[scan]))
+        ++state.breaks;
       if (state.options.close_loops_online)
         closeLoops(scan, state);
       if (context.observer)
@@ -110,13 +118,8 @@ private:
 bool
 isOrderHopeless(const SlamState& state)
 {
-  const auto& scans = state.result.scans;
-  const auto lost =
-      std::count_if(scans.begin(),
-                    scans.begin() + static_cast<std::ptrdiff_t>(state.next),
-                    [](const ScanResult& scan) { return !isRegistered(scan); });
-  return state.is_order_tried && static_cast<std::size_t>(lost) >
-                                     std::max<std::size_t>(1, scans.size() / kOneIn);
+  return state.is_order_tried &&
+         state.breaks > std::max<std::size_t>(1, state.size() / kOneIn);
 }
 
 StagePtr

@@ -76,7 +76,7 @@ adjustToControl();
 StagePtr
 userStage(std::shared_ptr<SlamStage> stage, SlamStage::Place place);
 
-/** \return whether more than a quarter of the scans could not be matched in their order; false
+/** \return whether more than a quarter of the scans match neither the map nor the scan before; false
  * unless the order is a trial */
 bool
 isOrderHopeless(const SlamState& state);

@@ -14,8 +14,10 @@ namespace PCL6D_EXPORTS pcl6d {
  * coincide: turned by quarters about the vertical, and shifted within the range of the scans.
  *
  * Upright surfaces are drawn into plans, whose cells vote for shifts; the best few shifts of each
- * quarter turn are matched (GICP). The found poses are not tested against the known pose: see
- * linkEvidence() and testLink().
+ * quarter turn are matched (GICP, with as many points as link tests use). Starts are dropped that run
+ * into the known pose or a found one, that rays contradict by far, or at which rays confirm less than
+ * a quarter of the surface that they confirm at the known pose. The found poses are not tested any
+ * further: see linkEvidence() and testLink().
  * \param[in] T_first_second the known pose, excluded from the result
  * \param[in] up unit vector upwards in the frame of the first scan
  * \return T_first_second of second poses, by quarter turn, then by number of votes

@@ -103,9 +103,10 @@ TEST(PoseBounds, AreTheRadiiOfSpheresThatHold95PercentOfTheErrors)
 {
   Random random(11);
   constexpr int kSamples = 40000;
-  for (const Eigen::Vector3d& deviations :
-       {Eigen::Vector3d(1, 0.001, 0.001), Eigen::Vector3d(1, 1, 0.001),
-        Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(3, 2, 1)}) {
+  for (const Eigen::Vector3d& deviations : {Eigen::Vector3d(1, 0.001, 0.001),
+                                            Eigen::Vector3d(1, 1, 0.001),
+                                            Eigen::Vector3d(1, 1, 1),
+                                            Eigen::Vector3d(3, 2, 1)}) {
     Matrix6 covariance = diagonalBound(1, 0.01);
     covariance.topLeftCorner<3, 3>() = deviations.cwiseAbs2().asDiagonal();
     const double bound =
@@ -147,7 +148,8 @@ TEST(PoseBounds, CountTheWayThatTheLinksAskFor)
   LinkCheck pulled = link(0, 1, diagonalBound(0.01, 0.001));
   pulled.pull(0) = 0.2;
   const auto map = bounded(line(2), mapOf(2, {pulled}));
-  EXPECT_NEAR(*map.scans[1].bound / (kOfLine * std::sqrt(0.2 * 0.2 + 1e-4)), 1, kRadiusTol);
+  EXPECT_NEAR(
+      *map.scans[1].bound / (kOfLine * std::sqrt(0.2 * 0.2 + 1e-4)), 1, kRadiusTol);
 }
 
 TEST(PoseBounds, GrowIfCyclesDoNotClose)

@@ -76,8 +76,8 @@ TEST(LinkEvidence, GivesPosesTheCovarianceOfBothNormals)
   const auto check = pcl6d::linkCheck(0, 1, evidence, evaluated(evidence));
   const auto& C = evidence.fit.pose_covariance;
   const Eigen::Matrix3d R = pair.T_first_second.linear();
-  const Eigen::Matrix3d turns = R * check.covariance.bottomRightCorner<3, 3>() *
-                                R.transpose();
+  const Eigen::Matrix3d turns =
+      R * check.covariance.bottomRightCorner<3, 3>() * R.transpose();
   EXPECT_TRUE(turns.isApprox(C.bottomRightCorner<3, 3>(), 1e-9));
   EXPECT_LT(std::sqrt(check.covariance.topLeftCorner<3, 3>().trace()),
             evidence.fit.deviation())

@@ -36,8 +36,7 @@ verification::gridsOf(const std::vector<SurfacePair>& pairs,
   PairGrids grids;
   for (std::size_t k = 0; k < grids.size(); ++k) {
     const auto& shift = kGridShifts[k];
-    const Eigen::Vector3d offset =
-        cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
+    const Eigen::Vector3d offset = cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
     VoxelNumbers cubes;
     grids[k].of_pair.reserve(pairs.size());
     for (const SurfacePair& pair : pairs) {
@@ -94,8 +93,7 @@ verification::measuredTwice(const std::vector<SurfacePair>& pairs,
     products.push_back(twice.one.back().cwiseProduct(twice.other.back()));
     twice.product += products.back() / count;
   }
-  twice.deviation =
-      sumOfCubes(products, grids, 0).diagonal().cwiseSqrt() / count;
+  twice.deviation = sumOfCubes(products, grids, 0).diagonal().cwiseSqrt() / count;
   return twice;
 }
 

@@ -45,10 +45,11 @@ sumOfCubes(const std::vector<Twist>& terms, const PairGrids& grids, int unknowns
 /** \brief Directions of motion as the normals of both scans measure them.
  *
  * The square of a cosine between a motion and an estimated normal is too large by the error of the
- * normal: along a tunnel, normals that err by 6 degrees have a mean square cosine of 0.01. The
- * product of the cosines of both normals of a pair has no such bias, as different points of
- * different scans are behind them (instrumental variables: O. Reiersol, "Confluence analysis by
- * means of instrumental sets of variables", Arkiv foer Matematik 32A(4), 1945). */
+ * normal: along a tunnel, normals that err by 6 degrees have a mean square cosine of 0.01. In the
+ * product of the cosines of both normals of a pair most of the bias is gone, as different points
+ * of different scans are behind them (instrumental variables: O. Reiersol, "Confluence analysis by
+ * means of instrumental sets of variables", Arkiv foer Matematik 32A(4), 1945). Not all: normals of
+ * edges have any direction, but face the scanner and each other, so their products are positive. */
 struct MeasuredTwice {
   /** Along the axes, a row per pair: of the normal, and of the other normal. */
   std::vector<Twist> one, other;
@@ -69,8 +70,9 @@ measuredTwice(const std::vector<SurfacePair>& pairs,
               const PairGrids& grids);
 
 /** \return the covariance, along the axes, of the sum of the gradients of all pairs
- * \param[in] gradients of the pairs along the axes \param[in] grids of two sizes: pairs are
- * correlated within cubes, and along whole surfaces, too; the size with the larger errors counts
+ * \param[in] gradients of the pairs along the axes \param[in] narrow grids of cubes within which
+ * errors are correlated \param[in] wide grids of larger cubes, for errors along whole surfaces; the
+ * grids with the larger errors count
  * \param[in] least variance that counts in each direction */
 Matrix6
 gradientCovariance(const std::vector<Twist>& gradients,

@@ -96,10 +96,10 @@ usualResidual(const std::vector<double>& left)
 
 /** Directions of motion, in the order of their eigenvalues, and how the pairs fix them. */
 struct FitDirections {
-  Matrix6 axes;           ///< columns: motions that move the pairs by 1 m (rms)
-  Twist mean_square;      ///< of the cosines to the normals of one scan
-  Twist inverse;          ///< of the sum of squared cosines; 0: open
-  Twist step;             ///< along the axes
+  Matrix6 axes;      ///< columns: motions that move the pairs by 1 m (rms)
+  Twist mean_square; ///< of the cosines to the normals of one scan
+  Twist inverse;     ///< of the sum of squared cosines; 0: open
+  Twist step;        ///< along the axes
 };
 
 /** \return variances along the axes, of the error common to the pairs. Points are denser near the
@@ -156,11 +156,9 @@ directionsOf(const std::vector<SurfacePair>& pairs,
   directions.axes = unit * eigen.vectors;
   directions.mean_square = eigen.values;
   for (int k = 0; k < 6; ++k)
-    directions.inverse(k) = eigen.values(k) < Localizability::kOpen
-                                ? 0
-                                : 1 / (eigen.values(k) * count);
-  directions.step =
-      directions.inverse.cwiseProduct(directions.axes.transpose() * b);
+    directions.inverse(k) =
+        eigen.values(k) < Localizability::kOpen ? 0 : 1 / (eigen.values(k) * count);
+  directions.step = directions.inverse.cwiseProduct(directions.axes.transpose() * b);
   return directions;
 }
 
@@ -192,7 +190,8 @@ addCovariances(const std::vector<SurfacePair>& pairs,
   // Few cubes may show no error in a direction: take a tenth of the independent error.
   const Twist least =
       0.1 * fit.residual * fit.residual * count * directions.mean_square;
-  Twist open = Twist::Zero(), weight; // the uncertainty of an open direction: the spread
+  Twist open = Twist::Zero(),
+        weight; // the uncertainty of an open direction: the spread
   for (int k = 0; k < 6; ++k) {
     open(k) = directions.inverse(k) > 0 ? 0 : fit.spread * fit.spread;
     weight(k) = directions.inverse(k) > 0
@@ -236,11 +235,8 @@ solve(const std::vector<SurfacePair>& pairs,
   fit.open_directions = static_cast<int>((directions.inverse.array() == 0).count());
   fit.step = directions.axes * directions.step;
   if (options.covariance)
-    addCovariances(pairs,
-                   options.cube_voxels * voxel,
-                   options.shared_error,
-                   directions,
-                   fit);
+    addCovariances(
+        pairs, options.cube_voxels * voxel, options.shared_error, directions, fit);
 }
 } // namespace
 

@@ -116,11 +116,4 @@ constexpr double kResolution = 0.1;
  * more; no link shifted by 3 and more has less than 2.6. */
 constexpr double kLeavingSigmas = 3.3;
 
-/** Share of the common error of a link's pairs (SurfaceFitOptions::shared_error) in the covariances
- * of poses with many links; the test of a single link uses the whole error. The smallest of 0,
- * 1/4, 1/2 and 1 that kept 95 % of the scans of each run within their bounds: chosen on corridor
- * (vlp16 and ouster, too), rooms and hku1; mine, multilevel and parking kept them with 0 already.
- * Only hku1 requires it, with 92 % at 0. */
-constexpr double kSharedByPoses = 0.25;
-
 } // namespace pcl6d::verification

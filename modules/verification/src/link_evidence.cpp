@@ -257,9 +257,7 @@ linkCheck(std::size_t from,
   link.open_directions = evidence.fit.open_directions;
   link.rejection = test_result.rejection;
   const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
-  constexpr double kLeftOut = 1 - kSharedByPoses * kSharedByPoses;
-  link.covariance =
-      J * (evidence.fit.covariance - kLeftOut * evidence.fit.shared) * J.transpose();
+  link.covariance = J * evidence.fit.pose_covariance * J.transpose();
   link.pull = J * evidence.fit.step;
   return link;
 }

@@ -25,7 +25,7 @@ void
 packFields(Archive& archive, SurfaceFit& fit)
 {
   archive(fit.pairs, fit.overlap, fit.residual, fit.centroid, fit.spread, fit.step);
-  archive(fit.covariance, fit.shared, fit.open_directions);
+  archive(fit.covariance, fit.pose_covariance, fit.open_directions);
 }
 
 template <typename Archive>

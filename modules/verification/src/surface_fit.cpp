@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface_pairs.h"
+#include "surface_covariance.h"
 
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/common/voxel_numbers.h>
 #include <pcl6d/registration/localizability.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
+using verification::jacobianOf;
+using verification::Matrix6;
+using verification::MeasuredTwice;
+using verification::PairGrids;
 using verification::SurfacePair;
 using verification::SurfacePairs;
 
 namespace {
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/** Shifts of the grid of cubes, in cubes, over which the covariance is averaged. */
-constexpr double kShifts[][3] = {{0, 0, 0},
-                                 {0.5, 0.5, 0},
-                                 {0.5, 0, 0.5},
-                                 {0, 0.5, 0.5}};
+/** Edge of the wide cubes, in cubes of the options: larger than most surfaces of a room. */
+constexpr double kWideCubes = 4;
 
 /** Collects pairs and counts the tested points. */
 class PairCollector {
@@ -53,11 +51,14 @@ public:
           !faceEachOther(of.surfaces().normals()[i], normals[k], T_in_of))
         continue;
       const Eigen::Vector3d normal = normals[k].cast<double>();
+      const Eigen::Vector3d other =
+          T_in_of.linear() * of.surfaces().normals()[i].cast<double>();
       const Eigen::Vector3d partner = in.surfaces().points()[k].cast<double>();
       const double missing = normal.dot(partner - place);
       // Opposite direction: the point of the first scan moves, the second stays.
       pairs.push_back({T_first_in * (is_forward ? place : partner),
                        T_first_in.linear() * normal,
+                       T_first_in.linear() * other,
                        is_forward ? missing : -missing});
     }
   }
@@ -78,78 +79,45 @@ private:
   const SurfaceFitOptions& options_;
 };
 
-Twist
-jacobianOf(const SurfacePair& pair, const Eigen::Vector3d& centroid)
-{
-  Twist j;
-  j.head<3>() = pair.normal;
-  j.tail<3>() = (pair.place - centroid).cross(pair.normal);
-  return j;
-}
-
-/** sum over the cubes of a grid of g g^T, with the factor for few cubes. */
-Matrix6
-clustered(const std::vector<SurfacePair>& pairs,
-          const SurfaceFit& fit,
-          double cube,
-          const double (&shift)[3])
-{
-  VoxelNumbers cubes;
-  std::vector<Twist> gradients;
-  const Eigen::Vector3d offset = cube * Eigen::Vector3d(shift[0], shift[1], shift[2]);
-  for (const SurfacePair& pair : pairs) {
-    const Twist j = jacobianOf(pair, fit.centroid);
-    const double left = pair.residual - j.dot(fit.step);
-    const Eigen::Vector3d place = pair.place - fit.centroid + offset;
-    const auto [number, is_new] = cubes.add(voxelKey(place.cast<float>(), cube));
-    if (is_new)
-      gradients.emplace_back(Twist::Zero());
-    gradients[number] += left * j;
-  }
-  Matrix6 sum = Matrix6::Zero();
-  for (const Twist& gradient : gradients)
-    sum += gradient * gradient.transpose();
-  const auto count = static_cast<double>(gradients.size());
-  return sum * (count / std::max(count - 6, 1.0));
-}
-
 /** \return the standard deviation of the residuals after the step, from their median:
  * edges have no influence */
 double
-usualResidual(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
+usualResidual(const std::vector<double>& left)
 {
   constexpr double kOfMedian = 1.4826; // of a normal distribution
   std::vector<double> sizes;
-  sizes.reserve(pairs.size());
-  for (const SurfacePair& pair : pairs)
-    sizes.push_back(
-        std::abs(pair.residual - jacobianOf(pair, fit.centroid).dot(fit.step)));
+  sizes.reserve(left.size());
+  for (const double residual : left)
+    sizes.push_back(std::abs(residual));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return kOfMedian * *middle;
 }
 
-/** \return variances along the directions of an eigen system, of the error common to
- * the pairs. Points are denser near the scanner, so pairs of rough surfaces pull the
- * scans together by sliding along surfaces oblique to the motion: nearly every pair in a
- * gallery, hardly any pair in a room with square walls.
+/** Directions of motion, in the order of their eigenvalues, and how the pairs fix them. */
+struct FitDirections {
+  Matrix6 axes;      ///< columns: motions that move the pairs by 1 m (rms)
+  Twist mean_square; ///< of the cosines to the normals of one scan
+  Twist inverse;     ///< of the sum of squared cosines; 0: open
+  Twist step;        ///< along the axes
+};
+
+/** \return variances along the axes, of the error common to the pairs. Points are denser near the
+ * scanner, so pairs of rough surfaces pull the scans together by sliding along surfaces oblique to
+ * the motion: nearly every pair in a gallery, hardly any pair in a room with square walls.
  * \param[in] size [m] of the error of a pair */
 Twist
-sharedVariances(const std::vector<SurfacePair>& pairs,
-                const SurfaceFit& fit,
-                double size,
-                const Matrix6& axes,
-                const Twist& inverse)
+sharedVariances(const FitDirections& directions,
+                const MeasuredTwice& measured,
+                double size)
 {
   Twist pull = Twist::Zero();
-  for (const SurfacePair& pair : pairs) {
-    const Twist along = axes.transpose() * jacobianOf(pair, fit.centroid);
+  for (const Twist& along : measured.one)
     for (int k = 0; k < 6; ++k) {
       const double cosine = std::min(1.0, std::abs(along(k)));
       pull(k) += cosine * std::sqrt(1 - cosine * cosine);
     }
-  }
-  return (size * inverse.cwiseProduct(pull)).cwiseAbs2();
+  return (size * directions.inverse.cwiseProduct(pull)).cwiseAbs2();
 }
 
 /** \return B^-1/2: from turns with a displacement of the pairs of 1 m (rms) to turns [rad], defined
@@ -173,7 +141,83 @@ unitTurns(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
   return eigen.vectors * squares.asDiagonal() * eigen.vectors.transpose();
 }
 
-/** Solves for the step, and gives the covariance of the pose. */
+/** \return the directions of the pairs; an open direction takes no step */
+FitDirections
+directionsOf(const std::vector<SurfacePair>& pairs,
+             const Matrix6& H,
+             const Twist& b,
+             const SurfaceFit& fit)
+{
+  Matrix6 unit = Matrix6::Identity(); // turns as motions of the pairs
+  unit.bottomRightCorner<3, 3>() = unitTurns(pairs, fit);
+  const auto count = static_cast<double>(pairs.size());
+  const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
+  FitDirections directions;
+  directions.axes = unit * eigen.vectors;
+  directions.mean_square = eigen.values;
+  for (int k = 0; k < 6; ++k)
+    directions.inverse(k) =
+        eigen.values(k) < Localizability::kOpen ? 0 : 1 / (eigen.values(k) * count);
+  directions.step = directions.inverse.cwiseProduct(directions.axes.transpose() * b);
+  return directions;
+}
+
+/** \return the terms of the pairs times their residuals */
+std::vector<Twist>
+gradientsOf(std::vector<Twist> terms, const std::vector<double>& residuals)
+{
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    terms[i] *= residuals[i];
+  return terms;
+}
+
+/** Fills both covariances. */
+void
+addCovariances(const std::vector<SurfacePair>& pairs,
+               double cube,
+               double shared_error,
+               const FitDirections& directions,
+               SurfaceFit& fit)
+{
+  const PairGrids grids = gridsOf(pairs, fit.centroid, cube);
+  const MeasuredTwice measured =
+      measuredTwice(pairs, fit.centroid, directions.axes, grids);
+  std::vector<double> left;
+  left.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    left.push_back(pairs[i].residual - measured.one[i].dot(directions.step));
+  const auto count = static_cast<double>(pairs.size());
+  // Few cubes may show no error in a direction: take a tenth of the independent error.
+  const Twist least =
+      0.1 * fit.residual * fit.residual * count * directions.mean_square;
+  Twist open = Twist::Zero(),
+        weight; // the uncertainty of an open direction: the spread
+  for (int k = 0; k < 6; ++k) {
+    open(k) = directions.inverse(k) > 0 ? 0 : fit.spread * fit.spread;
+    weight(k) = directions.inverse(k) > 0
+                    ? 1 / (count * measured.weight(k, directions.mean_square(k)))
+                    : 0;
+  }
+  const Twist shared =
+      sharedVariances(directions, measured, shared_error * usualResidual(left));
+  Matrix6 spread = sumOfCubes(gradientsOf(measured.one, left), grids, 6);
+  spread.diagonal() += least;
+  const auto& V = directions.axes;
+  const auto inverse = directions.inverse.asDiagonal();
+  Matrix6 C = inverse * spread * inverse;
+  C.diagonal() += open + shared;
+  fit.covariance = V * C * V.transpose();
+  C = weight.asDiagonal() *
+      gradientCovariance(gradientsOf(measured.other, left),
+                         grids,
+                         gridsOf(pairs, fit.centroid, kWideCubes * cube),
+                         least) *
+      weight.asDiagonal();
+  C.diagonal() += open;
+  fit.pose_covariance = V * C * V.transpose();
+}
+
+/** Solves for the step, and gives the covariances of the pose. */
 void
 solve(const std::vector<SurfacePair>& pairs,
       double voxel,
@@ -183,38 +227,16 @@ solve(const std::vector<SurfacePair>& pairs,
   Matrix6 H = Matrix6::Zero();
   Twist b = Twist::Zero();
   for (const SurfacePair& pair : pairs) {
-    const Twist j = jacobianOf(pair, fit.centroid);
+    const Twist j = jacobianOf(pair.place, pair.normal, fit.centroid);
     H += j * j.transpose();
     b += pair.residual * j;
   }
-  Matrix6 unit = Matrix6::Identity(); // turns as motions of the pairs
-  unit.bottomRightCorner<3, 3>() = unitTurns(pairs, fit);
-  const auto count = static_cast<double>(pairs.size());
-  const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
-  // An open direction takes no step; its uncertainty is the spread of the pairs.
-  Twist inverse = Twist::Zero(), open = Twist::Zero();
-  for (int k = 0; k < 6; ++k)
-    if (eigen.values(k) < Localizability::kOpen) {
-      ++fit.open_directions;
-      open(k) = fit.spread * fit.spread;
-    }
-    else
-      inverse(k) = 1 / (eigen.values(k) * count);
-  const Matrix6 V = unit * eigen.vectors;
-  const Matrix6 H_inverse = V * inverse.asDiagonal() * V.transpose();
-  fit.step = H_inverse * b;
-  if (!options.covariance)
-    return;
-  Matrix6 spread = Matrix6::Zero();
-  for (const auto& shift : kShifts)
-    spread += clustered(pairs, fit, options.cube_voxels * voxel, shift) / 4;
-  const double error = options.shared_error * usualResidual(pairs, fit);
-  const Twist shared = sharedVariances(pairs, fit, error, V, inverse);
-  // Few cubes may show no error in a direction: take a tenth of the independent error.
-  fit.shared = V * shared.asDiagonal() * V.transpose();
-  fit.covariance =
-      H_inverse * (spread + 0.1 * fit.residual * fit.residual * H) * H_inverse +
-      V * (open + shared).asDiagonal() * V.transpose();
+  const FitDirections directions = directionsOf(pairs, H, b, fit);
+  fit.open_directions = static_cast<int>((directions.inverse.array() == 0).count());
+  fit.step = directions.axes * directions.step;
+  if (options.covariance)
+    addCovariances(
+        pairs, options.cube_voxels * voxel, options.shared_error, directions, fit);
 }
 } // namespace
 

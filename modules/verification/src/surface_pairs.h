@@ -13,8 +13,11 @@ namespace pcl6d::verification {
 /** \brief A pair across a surface, in the frame of the first scan. */
 struct SurfacePair {
   Eigen::Vector3d place;  ///< [m] of the second scan's point
-  Eigen::Vector3d normal; ///< unit
-  double residual;        ///< [m] distance to the partner along the normal
+  Eigen::Vector3d normal; ///< unit; along it the distance is measured
+  /** unit, of the other point, from the points of the other scan: its error is independent of the
+   * error of `normal` */
+  Eigen::Vector3d other_normal;
+  double residual; ///< [m] distance to the partner along the normal
 };
 
 /** \brief The result of pairSurfaces(). */

@@ -73,8 +73,8 @@ struct ScanCheck {
   /** of the pose relative to the first scan, as a small motion about the scan's origin in the
    * scan's axes, by the good links of the map; empty if not connected with the first scan */
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
-  /** [m] 95 % bound of the position relative to the first scan: the longest half axis of the
-   * ellipsoid */
+  /** [m] 95 % bound of the position relative to the first scan: the radius of the sphere about the
+   * position that holds the true one with 95 % */
   std::optional<double> bound;
   std::optional<NoticedError> noticed; ///< by the scan's most sensitive good link
   Rejection doubt;                     ///< about the pose; none: accepted

@@ -39,12 +39,14 @@ struct SurfaceFit {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero(); ///< [m] of the pairs
   double spread = 0;          ///< [m] rms distance of the pairs from the centroid
   Twist step = Twist::Zero(); ///< best motion by one Gauss-Newton step
-  /** of the pose: points of a cube count as one, because their errors are correlated, and the error
-   * common to all pairs is added; unconstrained directions have the spread of the pairs as
-   * deviation */
+  /** of the pose, for the test of a single link: points of a cube count as one, because their
+   * errors are correlated, and the error common to all pairs is added; unconstrained directions
+   * have the spread of the pairs as deviation */
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /** the part of the covariance from the error common to all pairs */
-  Eigen::Matrix<double, 6, 6> shared = Eigen::Matrix<double, 6, 6>::Zero();
+  /** of the pose, as a measurement among many links: errors of the normals of one scan cancel,
+   * because both scans' normals count, and points of a whole surface count as one if this gives
+   * larger errors than cubes */
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int open_directions = 0; ///< motions unconstrained by the surfaces
 
   /** \return [m] rms motion of the pairs by the step */

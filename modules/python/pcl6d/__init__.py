@@ -15,7 +15,7 @@ from ._registration import gicp, icp, ndt, register, verify
 from ._results import (
     Errors,
     Link,
-    LinkVerdict,
+    LinkTest,
     MapPoints,
     MapQuality,
     MapVerdict,
@@ -41,7 +41,7 @@ __all__ = [
     "FileError",
     "KdTree",
     "Link",
-    "LinkVerdict",
+    "LinkTest",
     "MapPoints",
     "MapQuality",
     "MapVerdict",

@@ -124,7 +124,7 @@ class Run:
         return cls(path)
 
     def __repr__(self) -> str:
-        word = "trusted" if self.trusted else "not trusted"
+        word = "reliable" if self.reliable else "not reliable"
         return f"Run({self._path!r}, {len(self._scans)} scans, {word})"
 
     @property
@@ -141,9 +141,10 @@ class Run:
         return poses_of(self._scans)
 
     @property
-    def trusted(self) -> bool:
-        """Whether every scan was registered and the verification has nothing against the map."""
-        return bool(self._summary["trusted"])
+    def reliable(self) -> bool:
+        """Whether every scan is registered, converged and connected with the first scan, and the
+        verification does not call the map doubtful or ambiguous; pcl_slam6d then exits with 0."""
+        return bool(self._summary["reliable"])
 
     @property
     def complete(self) -> bool:
@@ -152,7 +153,7 @@ class Run:
 
     @property
     def verdict(self) -> str:
-        """The result in words."""
+        """The verdict in words, as pcl_slam6d prints it."""
         return str(self._summary["verdict"])
 
     @property
@@ -192,7 +193,7 @@ class Run:
         return {
             "path": self._path,
             "scans": [scan.to_dict() for scan in self._scans],
-            "trusted": self.trusted,
+            "reliable": self.reliable,
             "complete": self.complete,
             "verdict": self.verdict,
             "warnings": list(self.warnings),

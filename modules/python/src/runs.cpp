@@ -33,7 +33,7 @@ summaryOf(const Run& run)
     scans.append(scanDict(scan));
   dict["scans"] = scans;
   dict["complete"] = summary.complete;
-  dict["trusted"] = summary.trusted;
+  dict["reliable"] = summary.trusted;
   dict["verdict"] = summary.verdict;
   dict["warnings"] = summary.warnings;
   dict["pose_source"] = summary.pose_source;

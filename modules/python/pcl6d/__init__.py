@@ -9,11 +9,11 @@ import atexit
 
 try:
     from . import _native
-except ImportError as error:
+except ImportError as _error:
     raise ImportError(
-        f"pcl6d: the extension module cannot be loaded: {error}; install the missing library "
+        f"pcl6d: the extension module cannot be loaded: {_error}; install the missing library "
         "(Debian: apt --fix-broken install), or build the package for this Python"
-    ) from error
+    ) from _error
 from ._errors import BadArgument, ComputeFailed, FileError
 from ._evaluation import evaluate_map, evaluate_trajectory
 from ._points import KdTree, estimate_normals, planes, voxel_downsample

@@ -116,7 +116,6 @@ class Run:
         self._path = os.fspath(path)
         self._summary = self._folder.summary()
         self._scans = tuple(make(ScanResult, scan) for scan in self._summary["scans"])
-        self._verification = verdict_of(self._summary["verification"])
 
     @classmethod
     def open(cls, path: Path) -> "Run":
@@ -162,7 +161,8 @@ class Run:
 
     @property
     def verification(self) -> Optional[MapVerdict]:
-        return self._verification
+        """The verdict, with the tests of links from verification.csv; None: not verified."""
+        return verdict_of(self._folder.verification())
 
     @property
     def options(self) -> abc.Mapping[str, str]:
@@ -190,6 +190,7 @@ class Run:
 
     def to_dict(self) -> dict[str, Any]:
         """The summary as numbers, words, lists and dicts."""
+        verification = self.verification
         return {
             "path": self._path,
             "scans": [scan.to_dict() for scan in self._scans],
@@ -197,7 +198,7 @@ class Run:
             "complete": self.complete,
             "verdict": self.verdict,
             "warnings": list(self.warnings),
-            "verification": self._verification and self._verification.to_dict(),
+            "verification": verification and verification.to_dict(),
             "options": dict(self.options),
             "missing": list(self.missing),
         }

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every function refuses what it cannot take, in one line, and takes arrays of any layout."""
 
+import pathlib
+import shutil
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -232,3 +237,16 @@ def test_errors_are_those_of_python():
     with pytest.raises(pcl6d.ComputeFailed):
         slam.add_scan(GOOD)
         slam.optimize()
+
+
+def test_a_package_that_cannot_be_loaded_tells_what_to_install(tmp_path):
+    package = tmp_path / "pcl6d"
+    package.mkdir()
+    for source in pathlib.Path(pcl6d.__file__).parent.glob("*.py"):
+        shutil.copy(source, package)  # without the extension
+    done = subprocess.run([sys.executable, "-c", "import pcl6d"], timeout=60,
+                          env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True)
+    last = done.stderr.strip().splitlines()[-1]
+    assert done.returncode == 1
+    assert last.startswith("ImportError: pcl6d: the extension module cannot be loaded: ")
+    assert "_native" in last and "apt --fix-broken install" in last

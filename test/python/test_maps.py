@@ -57,6 +57,9 @@ def test_map_folder_writes_a_run(scan_folder, tmp_path):
     again = pcl6d.Run.open(tmp_path / "run")
     assert np.array_equal(again.poses, run.poses)
     assert again.verdict == run.verdict and again.options["voxel"] == "0.1"
+    tests = again.verification.links
+    assert tests and {(test.first, test.second) for test in tests} <= {(0, 1), (0, 2), (1, 2)}
+    assert all(test.result in ("good", "weak", "unverified", "wrong") for test in tests)
     points = again.map()
     assert points.points.dtype == np.float32 and points.world.dtype == np.float64
     assert set(np.unique(points.scan)) == {0, 1, 2}
@@ -70,6 +73,9 @@ def test_map_folder_writes_a_run(scan_folder, tmp_path):
         pcl6d.map_folder(folder, tmp_path / "run")
     with pytest.raises(IndexError):
         again.scan(3)
+    (tmp_path / "run" / "verification.csv").write_text("from,to\n")
+    with pytest.raises(pcl6d.FileError, match="verification.csv"):
+        again.verification
 
 
 def test_map_folder_selects_scans(scan_folder, tmp_path):

@@ -40,7 +40,7 @@ def test_lines_of_a_page_run(page, scan_folder, tmp_path, monkeypatch):
     truth = scan_folder[1]
     T = np.linalg.inv(truth[0]) @ truth[1]
     assert np.abs(names["T"] - T).max() < 0.02
-    assert names["checked"].verdict == "good"
+    assert names["checked"].consistent
     assert len(names["run"].scans) == 3
 
 

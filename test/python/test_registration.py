@@ -65,8 +65,8 @@ def test_verify_tells_right_from_wrong(pair):
     shifted = truth.copy()
     shifted[0, 3] += 0.5
     wrong = pcl6d.verify(source=source, target=target, T_target_source=shifted, voxel=0.15)
-    assert right.verdict != "wrong"
-    assert not wrong.trusted
+    assert right.result != "wrong"
+    assert not wrong.consistent
     assert right.probability_wrong < wrong.probability_wrong
     assert right.shift < 0.05
 

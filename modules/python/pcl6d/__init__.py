@@ -7,7 +7,13 @@ let other threads run, take progress= and stop on Ctrl-C.
 
 import atexit
 
-from . import _native
+try:
+    from . import _native
+except ImportError as _error:
+    raise ImportError(
+        f"pcl6d: the extension module cannot be loaded: {_error}; install the missing library "
+        "(Debian: apt --fix-broken install), or build the package for this Python"
+    ) from _error
 from ._errors import BadArgument, ComputeFailed, FileError
 from ._evaluation import evaluate_map, evaluate_trajectory
 from ._points import KdTree, estimate_normals, planes, voxel_downsample
@@ -15,7 +21,7 @@ from ._registration import gicp, icp, ndt, register, verify
 from ._results import (
     Errors,
     Link,
-    LinkVerdict,
+    LinkTest,
     MapPoints,
     MapQuality,
     MapVerdict,
@@ -41,7 +47,7 @@ __all__ = [
     "FileError",
     "KdTree",
     "Link",
-    "LinkVerdict",
+    "LinkTest",
     "MapPoints",
     "MapQuality",
     "MapVerdict",

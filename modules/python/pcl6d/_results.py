@@ -91,30 +91,30 @@ class RegistrationResult(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Verification(Result):
-    """What two scans say of their relative pose, by rays and surfaces."""
+    """Test of the relative pose of two scans, by their rays and surfaces."""
 
-    verdict: str
+    result: str
     """good, weak, unverified or wrong."""
     probability_wrong: float
     reason: str
     num_patches: int
-    """Patches of surface of which the rays of the other scan speak."""
-    num_contradicted: int
-    """Of these: the rays went through."""
+    """Patches of surface tested by the rays of the other scan."""
+    num_violated: int
+    """Patches that these rays passed through."""
     num_inliers: int
     fitness: float
     inlier_rmse: float
     shift: float
-    """[m] by which the surfaces would move the source."""
+    """[m] shift of the source that the surfaces ask for."""
     deviation: float
-    """[m] standard deviation of its position by the surfaces."""
+    """[m] standard deviation of the shift."""
     covariance: Optional[Array]
     free_directions: Array
 
     @property
-    def trusted(self) -> bool:
-        """Whether the verdict is good."""
-        return self.verdict == "good"
+    def consistent(self) -> bool:
+        """Whether the result is good: rays and surfaces confirm the pose."""
+        return self.result == "good"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -140,33 +140,35 @@ class ScanResult(Result):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LinkVerdict(Result):
-    """What two scans of a map say of each other's pose."""
+class LinkTest(Result):
+    """Test of a link between two scans of a map, given by their indices."""
 
     first: int
     second: int
-    verdict: str
+    result: str
+    """good, weak, unverified or wrong."""
     probability_wrong: float
     reason: str
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MapVerdict(Result):
-    """The verdict on a map by its scans' points and rays."""
+    """The verdict on a map, from the points and rays of its scans."""
 
     verdict: str
     """good, doubtful, ambiguous or unverified."""
-    trusted: bool
     doubts: Tuple[str, ...]
-    links: Tuple[LinkVerdict, ...]
+    links: Tuple[LinkTest, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SlamResult(Result):
-    """What Slam6D found."""
+    """The map of a Slam6D."""
 
     scans: Tuple[ScanResult, ...]
-    trusted: bool
+    reliable: bool
+    """Every scan is registered, converged and connected with the first scan, and the verdict is
+    good or unverified."""
     verification: Optional[MapVerdict]
     parameters: abc.Mapping[str, str]
     """Lengths that were given, or derived from the scans."""
@@ -277,7 +279,7 @@ class TrajectoryErrors(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ScanQuality(Result):
-    """What one scan says of a map. NaN: nothing to measure."""
+    """Quality of the map around one scan. NaN: nothing to measure."""
 
     num_neighbours: int
     agreement: float
@@ -315,5 +317,5 @@ def poses_of(scans: Tuple[ScanResult, ...]) -> Array:
 def verdict_of(values: Optional[abc.Mapping[str, Any]]) -> Optional[MapVerdict]:
     if values is None:
         return None
-    links = tuple(make(LinkVerdict, link) for link in values["links"])
+    links = tuple(make(LinkTest, link) for link in values["links"])
     return make(MapVerdict, {**values, "links": links})

@@ -116,7 +116,6 @@ class Run:
         self._path = os.fspath(path)
         self._summary = self._folder.summary()
         self._scans = tuple(make(ScanResult, scan) for scan in self._summary["scans"])
-        self._verification = verdict_of(self._summary["verification"])
 
     @classmethod
     def open(cls, path: Path) -> "Run":
@@ -124,7 +123,7 @@ class Run:
         return cls(path)
 
     def __repr__(self) -> str:
-        word = "trusted" if self.trusted else "not trusted"
+        word = "reliable" if self.reliable else "not reliable"
         return f"Run({self._path!r}, {len(self._scans)} scans, {word})"
 
     @property
@@ -141,9 +140,10 @@ class Run:
         return poses_of(self._scans)
 
     @property
-    def trusted(self) -> bool:
-        """Whether every scan was registered and the verification has nothing against the map."""
-        return bool(self._summary["trusted"])
+    def reliable(self) -> bool:
+        """Whether every scan is registered, converged and connected with the first scan, and the
+        verification does not call the map doubtful or ambiguous; pcl_slam6d then exits with 0."""
+        return bool(self._summary["reliable"])
 
     @property
     def complete(self) -> bool:
@@ -152,7 +152,7 @@ class Run:
 
     @property
     def verdict(self) -> str:
-        """The result in words."""
+        """The verdict in words, as pcl_slam6d prints it."""
         return str(self._summary["verdict"])
 
     @property
@@ -161,7 +161,8 @@ class Run:
 
     @property
     def verification(self) -> Optional[MapVerdict]:
-        return self._verification
+        """The verdict, with the tests of links from verification.csv; None: not verified."""
+        return verdict_of(self._folder.verification())
 
     @property
     def options(self) -> abc.Mapping[str, str]:
@@ -189,14 +190,15 @@ class Run:
 
     def to_dict(self) -> dict[str, Any]:
         """The summary as numbers, words, lists and dicts."""
+        verification = self.verification
         return {
             "path": self._path,
             "scans": [scan.to_dict() for scan in self._scans],
-            "trusted": self.trusted,
+            "reliable": self.reliable,
             "complete": self.complete,
             "verdict": self.verdict,
             "warnings": list(self.warnings),
-            "verification": self._verification and self._verification.to_dict(),
+            "verification": verification and verification.to_dict(),
             "options": dict(self.options),
             "missing": list(self.missing),
         }

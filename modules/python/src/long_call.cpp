@@ -21,6 +21,7 @@ constexpr std::chrono::milliseconds kPatience{1000}; ///< for stopped work
 struct Call {
   CallWatch watch;
   std::function<void(CallWatch&)> work;
+  Stopping stopping = Stopping::kAmidWork;
   std::mutex mutex;
   std::condition_variable ended;
   bool is_over = false;
@@ -30,7 +31,9 @@ struct Call {
   run()
   {
     try {
-      const StopScope scope(watch.flag());
+      std::optional<StopScope> scope;
+      if (stopping == Stopping::kAmidWork)
+        scope.emplace(watch.flag());
       work(watch);
     } catch (...) {
       error = std::current_exception();
@@ -121,7 +124,9 @@ CallWatch::takeReports()
 }
 
 void
-runLong(const py::object& progress, std::function<void(CallWatch&)> work)
+runLong(const py::object& progress,
+        std::function<void(CallWatch&)> work,
+        Stopping stopping)
 {
   if (!progress.is_none() && !PyCallable_Check(progress.ptr()))
     throw BadArgument(
@@ -129,6 +134,7 @@ runLong(const py::object& progress, std::function<void(CallWatch&)> work)
         "total, or None");
   const auto call = std::make_shared<Call>();
   call->work = std::move(work);
+  call->stopping = stopping;
   std::thread thread;
   try {
     thread = std::thread([call] { call->run(); });

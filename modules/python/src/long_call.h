@@ -59,26 +59,37 @@ private:
   std::deque<Progress> reports_;
 };
 
+/** \brief How work ends after a stop request. */
+enum class Stopping {
+  kAmidWork, ///< its parallel loops and reports throw Interrupted; the work is lost
+  kInSteps   ///< it looks at CallWatch::isStopped() between steps, and can be continued
+};
+
 /** \brief Runs work in a separate thread, without Python's lock, and waits for the end. Signals
  * and progress are handled in the calling thread meanwhile. After Ctrl-C, or an exception of
- * `progress`, the work is asked to stop: its parallel loops and reports throw Interrupted. Work
- * that does not stop within a second continues in the background, and the result is dropped.
+ * `progress`, the work is asked to stop. Work that does not stop within a second continues in the
+ * background, and the result is dropped.
  * \param[in] progress None, or called with stage, done and total
  * \param[in] work must own all data used
  * \throws error_already_set Python's exception; rethrows exceptions of work */
 void
-runLong(const py::object& progress, std::function<void(CallWatch&)> work);
+runLong(const py::object& progress,
+        std::function<void(CallWatch&)> work,
+        Stopping stopping = Stopping::kAmidWork);
 
 /** \return the result of work, run by runLong() */
 template <typename Work>
 auto
-longCall(const py::object& progress, Work work)
+longCall(const py::object& progress, Work work, Stopping stopping = Stopping::kAmidWork)
 {
   using Result = decltype(work(std::declval<CallWatch&>()));
   const auto result = std::make_shared<std::optional<Result>>();
-  runLong(progress, [result, work = std::move(work)](CallWatch& watch) mutable {
-    result->emplace(work(watch));
-  });
+  runLong(
+      progress,
+      [result, work = std::move(work)](CallWatch& watch) mutable {
+        result->emplace(work(watch));
+      },
+      stopping);
   return std::move(**result);
 }
 

@@ -80,14 +80,8 @@ registerScans(const ScanFolder& folder, Slam6D& slam, CallWatch& watch)
     slam.addScan(folder.read(i).points, folder.initialPose(i), folder.title(i));
     watch.report({"reading", i + 1, folder.size()});
   }
-  slam.setProgressCallback([&](const Progress& report) {
-    if (watch.isStopped())
-      slam.cancel();
-    else
-      watch.tell(report);
-  });
-  if (!slam.optimize())
-    throw Interrupted();
+  slam.setProgressCallback(watch.callback());
+  slam.optimize();
 }
 
 RunResult

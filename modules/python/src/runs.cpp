@@ -6,6 +6,7 @@
 #include "slam_results.h"
 
 #include <pcl6d/run/run_folder.h>
+#include <pcl6d/run/run_links_io.h>
 
 #include <memory>
 #include <pybind11/stl.h>
@@ -33,18 +34,29 @@ summaryOf(const Run& run)
     scans.append(scanDict(scan));
   dict["scans"] = scans;
   dict["complete"] = summary.complete;
-  dict["trusted"] = summary.trusted;
+  dict["reliable"] = summary.trusted;
   dict["verdict"] = summary.verdict;
   dict["warnings"] = summary.warnings;
   dict["pose_source"] = summary.pose_source;
   dict["world_offset"] = arrayOf(Eigen::MatrixXd(summary.world_offset)).reshape({3});
-  dict["verification"] = verificationOrNone(summary.verification);
   py::dict options;
   for (const RunResult::Option& option : summary.options)
     options[option.name.c_str()] = option.value;
   dict["options"] = options;
   dict["missing"] = run->missing();
   return dict;
+}
+
+/** \return the verification of the summary, with the links of verification.csv if there is one */
+py::object
+verificationOf(const Run& run)
+{
+  std::optional<MapVerification> map = run->summary().verification;
+  if (map && run->has("verification.csv"))
+    map->links = longCall(py::none(), [run](CallWatch&) {
+      return readLinkChecks(run->path() / "verification.csv");
+    });
+  return verificationOrNone(map);
 }
 
 py::dict
@@ -102,6 +114,7 @@ bindRuns(py::module_& module)
   py::class_<RunFolder, Run>(module, "RunFolder")
       .def(py::init(&openRun))
       .def("summary", &summaryOf)
+      .def("verification", &verificationOf)
       .def("map", &mapOf)
       .def("scan", &scanPoints)
       .def("links", &linksOf);

@@ -79,10 +79,7 @@ bool
 optimize(const std::shared_ptr<Slam>& slam, const py::object& progress)
 {
   const auto turn = std::make_shared<Turn>(slam);
-  return longCall(progress, [turn](CallWatch& watch) {
-    // A stage ends after a whole scan, so that optimize() can go on later.
-    static const std::atomic<bool> never{false};
-    const StopScope whole_scans(never);
+  const auto work = [turn](CallWatch& watch) {
     Slam6D& slam6d = (*turn)->slam;
     slam6d.setProgressCallback([&](const Progress& report) {
       if (watch.isStopped())
@@ -93,7 +90,8 @@ optimize(const std::shared_ptr<Slam>& slam, const py::object& progress)
     const bool is_complete = slam6d.optimize();
     slam6d.setProgressCallback({});
     return is_complete;
-  });
+  };
+  return longCall(progress, work, Stopping::kInSteps); // so that it can go on later
 }
 
 py::dict
@@ -110,7 +108,7 @@ resultOf(const std::shared_ptr<Slam>& slam)
     scans.append(scan);
   }
   dict["scans"] = scans;
-  dict["trusted"] = result.trusted();
+  dict["reliable"] = result.trusted();
   dict["verification"] = verificationOrNone(result.verification);
   py::dict parameters;
   for (const auto& option : usedOptions(OptionWords(), result.parameters))

@@ -144,14 +144,13 @@ verificationOrNone(const std::optional<MapVerification>& map)
     return py::none();
   py::dict dict;
   dict["verdict"] = toString(map->trust);
-  dict["trusted"] = map->trusted();
   dict["doubts"] = wordsOfEach(map->doubts);
   py::list links;
   for (const LinkCheck& link : map->links) {
     py::dict row;
     row["first"] = link.from;
     row["second"] = link.to;
-    row["verdict"] = toString(link.trust);
+    row["result"] = toString(link.trust);
     row["probability_wrong"] = link.probability_wrong;
     row["reason"] = toWords(link.rejection);
     links.append(row);

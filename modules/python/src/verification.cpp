@@ -45,15 +45,15 @@ parametersOf(const py::dict& values, Eigen::Vector3d& target, Eigen::Vector3d& s
 }
 
 py::dict
-verdictDict(const VerifiedPair& pair, const PairVerdict& verdict)
+testDict(const VerifiedPair& pair, const PairVerdict& verdict)
 {
   const LinkEvidence& evidence = verdict.evidence;
   py::dict dict;
-  dict["verdict"] = toString(verdict.test_result.trust);
+  dict["result"] = toString(verdict.test_result.trust);
   dict["probability_wrong"] = verdict.test_result.probability_wrong;
   dict["reason"] = toWords(verdict.test_result.rejection);
   dict["num_patches"] = evidence.sight.patches;
-  dict["num_contradicted"] = evidence.sight.contradicted_patches;
+  dict["num_violated"] = evidence.sight.contradicted_patches;
   dict["num_inliers"] = evidence.fit.pairs;
   dict["fitness"] = evidence.fit.overlap;
   dict["inlier_rmse"] = evidence.fit.residual;
@@ -97,7 +97,7 @@ verifyDict(const py::object& target,
     watch.report({"verifying", 1, 1});
     return result;
   });
-  return verdictDict(*pair, verdict);
+  return testDict(*pair, verdict);
 }
 } // namespace
 

@@ -35,8 +35,8 @@ constexpr std::size_t kOneIn = 4;
 constexpr double kKeyframeTurn = 10 * kDegree;
 
 /** Scans with poses are the sweeps of a drive if at most this share would be keyframes: each place
- * is then seen by four scans, as nobody who stops for each scan measures. With stamps half a second
- * apart at most, nobody stopped: spinning lidars turn 5 to 20 times a second. Then half is enough
+ * is then seen by four scans, more than anyone measures who stops for each scan. With stamps half a
+ * second apart at most, the scanner did not stop: spinning lidars turn 5 to 20 times a second. Then half is enough
  * for tracking to save work. */
 constexpr double kKeyframesOfSweeps = 0.25, kKeyframesOfFastSweeps = 0.5;
 constexpr double kLongestPeriod = 0.5; // [s]
@@ -117,7 +117,7 @@ keyframesOfPoses(const ScanFolder& folder)
       poses, SweepTrackerOptions().keyframe_way * range, kKeyframeTurn);
 }
 
-/** \return whether the stamps of the scans tell that nobody stopped between them */
+/** \return whether the stamps tell that the scanner did not stop between two scans */
 bool
 areFast(const ScanFolder& folder)
 {

@@ -70,7 +70,7 @@ private:
     const std::vector<ScanPair> links = state.options.given_links;
     const bool is_whole = tryOrder(state, context);
     auto& starts = state.result.starts;
-    if (is_whole && isEnough(starts[0], state)) {
+    if (is_whole && starts[0].connected == state.size()) {
       starts[0].is_kept = true;
       return context.observe(state.result);
     }
@@ -88,17 +88,6 @@ private:
     starts = {ordered.starts[0], any_order};
     starts[is_ordered ? 0 : 1].is_kept = true;
     context.observe(state.result);
-  }
-
-  /** \return whether the order connects all scans, or more than half of them, and place recognition
-   * has searched for the rest from there: a search in any order could hardly find more, and takes
-   * several times as long */
-  static bool
-  isEnough(const StartResult& start, const SlamState& state)
-  {
-    return start.connected == state.size() ||
-           (start.is_complete && isRecovering(state.options) &&
-            2 * start.connected > state.size());
   }
 
   /** In the order of the scans, until too many cannot be matched. \return false if cancelled */

@@ -57,8 +57,8 @@ struct MatchingOptions {
   InitialGuess initial_guess = InitialGuess::kOdometry;
   /** with kGlobal: first tries the scans in the order of addition, each from the previous motion or
    * pose. The result is kept if it connects more scans than kGlobal, which is tried unless all
-   * scans are connected, or more than half after a search for lost scans (recovery). The result
-   * then depends on the order. No effect if runs are joined */
+   * scans are connected. The result then depends on the order.
+   * No effect if runs are joined */
   bool order_first = false;
   /** match with the union of the last N scans; 1 is pairwise, 0: all scans */
   int metascan = 0;

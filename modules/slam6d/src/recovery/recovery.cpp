@@ -247,9 +247,6 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
                      options);
   if (place.accepted)
     return Found{place.T_world_scan, RecoveredBy::kSearch};
-  // Without poses, lost scans are matched with each other, and all of them are recognised at the end.
-  if (options_.order_first)
-    return std::nullopt;
   return findEverywhere(scan, scans);
 }
 

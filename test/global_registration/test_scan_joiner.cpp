@@ -148,6 +148,29 @@ TEST(ScanJoiner, GivesTheSameBitsForAnyOrderAndAnyNumberOfThreads)
   }
 }
 
+TEST(ScanJoiner, TakesWhatItFoundBeforeFromTheMemory)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  pcl6d::PairMemory memory;
+  JoinOptions options;
+  options.memory = &memory;
+  const JoinedScans without = joinScans(scans.all());
+  for (int call = 0; call < 2; ++call) {
+    const JoinedScans found = joinScans(scans.all(), options);
+    EXPECT_EQ(found.groups, without.groups);
+    for (std::size_t i = 0; i < room.points.size(); ++i)
+      EXPECT_TRUE(sameBits(found.scans[i].T_group_scan, without.scans[i].T_group_scan));
+  }
+  // Pairs without candidates leave nothing to join: the memory decides, not a new search.
+  for (const auto& one : scans.all())
+    for (const auto& other : scans.all())
+      memory.keepCandidates({&one.scan(), &other.scan()}, options.max_ambiguity, {});
+  EXPECT_EQ(joinScans(scans.all(), options).groups.size(), room.points.size());
+}
+
 TEST(ScanJoiner, TwoSitesAreTwoGroups)
 {
   const RoomScans room, other(longRoom(), 4);

@@ -141,6 +141,17 @@ TEST(Slam6DStart, AGapIsASingleBreakOfTheOrder)
   EXPECT_TRUE(result.starts[0].is_complete); // not given up
   EXPECT_EQ(result.starts[0].connected, 5U);
   EXPECT_FALSE(result.trusted());
+  // Most scans are connected: they keep their places, and the others form a group beside them.
+  EXPECT_TRUE(result.starts[0].is_kept && result.starts[1].is_kept);
+  EXPECT_TRUE(result.starts[1].is_continued);
+  EXPECT_EQ(result.starts[1].registered, 8U);
+  EXPECT_EQ(result.starts[1].connected, 5U);
+  EXPECT_EQ(result.floating, (std::vector<std::size_t>{5, 6, 7}));
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto error = pcl6d::distanceBetween(
+        Walk().truth[0].inverse() * Walk().truth[i], result.scans[i].T_world_scan);
+    EXPECT_LT(error.translation, 0.02) << i;
+  }
 }
 
 TEST(Slam6DStart, TurnsThatNoMotionPredictsAreFound)

@@ -59,7 +59,8 @@ textOf(const StartResult& start, std::size_t total)
   const std::string of_all = " of " + std::to_string(total) + " scans";
   const std::string way = start.guess == InitialGuess::kOdometry
                               ? "start in the order of the files: "
-                              : "start in any order: ";
+                          : start.is_continued ? "the other scans in any order: "
+                                               : "start in any order: ";
   if (!start.is_complete)
     return way + "given up: too many scans could not be matched with the scan before";
   return way + std::to_string(start.registered) + of_all + " registered, " +

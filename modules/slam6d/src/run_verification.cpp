@@ -96,6 +96,18 @@ RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& res
   takeCovariances(*result.verification, result.scans);
 }
 
+void
+RunVerification::verifyTrial(const std::vector<std::string>& names,
+                             Slam6DResult& result)
+{
+  is_trial_ = true;
+  verify(names, result);
+  is_trial_ = false;
+  for (const ScanCheck& scan : result.verification->scans)
+    if (!scan.tied)
+      verified_.clear(); // the verdict is not complete
+}
+
 MapVerification
 RunVerification::verdictOn(const std::vector<Verified>& scans,
                            const std::vector<std::string>& names,
@@ -105,6 +117,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   MapVerifierOptions options;
   options.num_threads = num_threads_;
   options.sharing = sharing_;
+  options.brief_if_disconnected = is_trial_;
   for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);

@@ -56,6 +56,10 @@ public:
   void
   verify(const std::vector<std::string>& names, Slam6DResult& result);
 
+  /** Verifies a map that is compared with others: briefly, if it does not connect all scans. */
+  void
+  verifyTrial(const std::vector<std::string>& names, Slam6DResult& result);
+
 private:
   /** Input of a verdict, for each scan. */
   struct Verified {
@@ -73,6 +77,7 @@ private:
 
   unsigned int num_threads_;
   WorkSharing* sharing_ = nullptr;
+  bool is_trial_ = false;                        ///< of verifyTrial()
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals
   std::deque<VerifiedScan> scans_;
   std::vector<Verified> verified_; ///< the last time

@@ -338,9 +338,12 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     if (!ties.tied[i])
       map.scans[i].doubt = ties.cut_from[i];
   }
-  if (!options_.unsure.empty())
+  const bool is_brief =
+      options_.brief_if_disconnected &&
+      std::find(ties.tied.begin(), ties.tied.end(), false) != ties.tied.end();
+  if (!options_.unsure.empty() && !is_brief)
     findTwins(T_world_scan, map);
-  if (options_.probe)
+  if (options_.probe && !is_brief)
     probe(T_world_scan, map);
   verification::MapDoubts(scans_, names_, test_results_).tell(map);
   return map;

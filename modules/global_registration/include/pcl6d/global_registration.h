@@ -7,6 +7,7 @@
 #include <pcl6d/global_registration/compatible_pairs.h>
 #include <pcl6d/global_registration/feature_scale.h>
 #include <pcl6d/global_registration/map_localiser.h>
+#include <pcl6d/global_registration/pair_memory.h>
 #include <pcl6d/global_registration/pair_placer.h>
 #include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/global_registration/place_in_map.h>

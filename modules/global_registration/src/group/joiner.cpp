@@ -28,7 +28,11 @@ Joiner::Joiner(const ScanList& scans,
 , options_(options)
 , known_(std::move(known))
 , pairs_(std::move(pairs))
-, hypotheses_(scans, options.max_ambiguity, options.num_threads, options.progress)
+, hypotheses_(scans,
+              options.max_ambiguity,
+              options.num_threads,
+              options.progress,
+              options.memory)
 , placement_(scans, hypotheses_, options.max_ambiguity, options.num_threads)
 , joined_(scans.size())
 , rejections_(scans.size())
@@ -38,7 +42,8 @@ void
 Joiner::run(JoinedScans& result)
 {
   const auto pairs = comparedPairs();
-  ranked_ = rankPairs(scans_, pairs, options_.num_threads, options_.progress);
+  ranked_ = rankPairs(
+      scans_, pairs, options_.memory, options_.num_threads, options_.progress);
   result.pairs_compared = pairs.size();
   place(bestOfEach(
       ranked_, scans_.size(), options_.pairs_per_scan, [this](std::size_t scan) {
@@ -52,8 +57,12 @@ Joiner::run(JoinedScans& result)
   const auto is_inside = [this](std::size_t scan) {
     return !groups_.empty() && groups_[0].scans.placeOf(scan).has_value();
   };
-  place(furtherPairs(
-      ranked_, placed_, scans_.size(), options_.pairs_per_scan, is_inside));
+  place(furtherPairs(ranked_,
+                     placed_,
+                     scans_.size(),
+                     options_.pairs_per_scan,
+                     is_inside,
+                     [this](std::size_t scan) { return isKnown(scan); }));
   testAgain();
   mergeGroups();
   leaveTorn();

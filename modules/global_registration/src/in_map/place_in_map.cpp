@@ -21,7 +21,7 @@ likeliestPairs(const ScanList& list, const MapPlaceOptions& options)
   std::vector<ScanPlaces> pairs;
   for (std::size_t i = 0; i < scan; ++i)
     pairs.emplace_back(i, scan);
-  auto ranked = rankPairs(list, pairs, options.num_threads, options.progress);
+  auto ranked = rankPairs(list, pairs, nullptr, options.num_threads, options.progress);
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
     return a.score > b.score;
   });

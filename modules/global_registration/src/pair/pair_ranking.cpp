@@ -44,6 +44,7 @@ sortBest(std::vector<RankedPair>& ranked)
 std::vector<RankedPair>
 rankPairs(const ScanList& scans,
           const std::vector<ScanPlaces>& pairs,
+          PairMemory* memory,
           unsigned int num_threads,
           const ProgressCallback& progress)
 {
@@ -63,17 +64,26 @@ rankPairs(const ScanList& scans,
     const std::size_t count = std::min(kComparedAtATime, pairs.size() - begin);
     parallelFor(count, num_threads, [&](std::size_t k) {
       const ScanPlaces& pair = pairs[begin + k];
+      const auto known =
+          memory ? memory->score(pairOf(scans, pair), cell) : std::nullopt;
+      ranked[begin + k] = {pair, known.value_or(0)};
+      if (known)
+        return;
       const auto starts = placeStarts(*upright[pair.first],
                                       *upright[pair.second],
                                       kQuickPlacements,
                                       1,
                                       search,
                                       kEvery);
-      ranked[begin + k] = {pair, starts.empty() ? 0 : starts.front().score};
+      if (!starts.empty())
+        ranked[begin + k].score = starts.front().score;
     });
     if (progress)
       progress({"comparing", begin + count, pairs.size()});
   }
+  for (const RankedPair& one : ranked)
+    if (memory)
+      memory->keepScore(pairOf(scans, one.scans), cell, one.score);
   return ranked;
 }
 
@@ -82,8 +92,12 @@ furtherPairs(const std::vector<RankedPair>& ranked,
              const std::set<ScanPlaces>& placed,
              std::size_t num_scans,
              std::size_t per_scan,
-             const std::function<bool(std::size_t)>& is_inside)
+             const std::function<bool(std::size_t)>& is_inside,
+             const std::function<bool(std::size_t)>& is_known)
 {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < num_scans; ++i)
+    most += is_known(i) ? 0 : per_scan;
   std::vector<RankedPair> across;
   for (const auto& one : ranked)
     if (is_inside(one.scans.first) != is_inside(one.scans.second) &&
@@ -94,7 +108,7 @@ furtherPairs(const std::vector<RankedPair>& ranked,
   std::vector<RankedPair> best;
   for (const auto& one : across) {
     const auto& [first, second] = one.scans;
-    if (placed.size() + best.size() < per_scan * num_scans &&
+    if (placed.size() + best.size() < most &&
         taken[is_inside(first) ? second : first]++ < per_scan)
       best.push_back(one);
   }

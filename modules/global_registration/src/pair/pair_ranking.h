@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl6d/common/progress.h>
+#include <pcl6d/global_registration/pair_memory.h>
 #include <pcl6d/global_registration/placeable_scan.h>
 
 #include <cstddef>
@@ -24,11 +25,20 @@ struct RankedPair {
   double score = 0; ///< in [0, 1]
 };
 
+/** \return a pair of the scans, for the memory of pairs */
+inline PairMemory::Pair
+pairOf(const ScanList& scans, const ScanPlaces& places)
+{
+  return {&scans[places.first]->scan(), &scans[places.second]->scan()};
+}
+
 /** \brief Scores pairs as placeScan() begins, with cells twice as wide.
+ * \param[in,out] memory of the scores; may be null
  * \return the order of the input; bit-identical for any number of threads */
 std::vector<RankedPair>
 rankPairs(const ScanList& scans,
           const std::vector<ScanPlaces>& pairs,
+          PairMemory* memory,
           unsigned int num_threads,
           const ProgressCallback& progress);
 
@@ -42,12 +52,13 @@ bestOfEach(std::vector<RankedPair> ranked,
            const std::function<bool(std::size_t)>& is_known);
 
 /** \return the best untested pairs of each scan outside a group with scans inside; in total at
- * most the remainder of per_scan pairs a scan */
+ * most the remainder of per_scan pairs for each scan whose pose is not known */
 std::vector<RankedPair>
 furtherPairs(const std::vector<RankedPair>& ranked,
              const std::set<ScanPlaces>& placed,
              std::size_t num_scans,
              std::size_t per_scan,
-             const std::function<bool(std::size_t)>& is_inside);
+             const std::function<bool(std::size_t)>& is_inside,
+             const std::function<bool(std::size_t)>& is_known);
 
 } // namespace pcl6d::global_registration

@@ -39,48 +39,63 @@ areSamePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double cell
 PlaceHypotheses::PlaceHypotheses(const ScanList& scans,
                                  double max_ambiguity,
                                  unsigned int num_threads,
-                                 const ProgressCallback& progress)
+                                 const ProgressCallback& progress,
+                                 PairMemory* memory)
 : scans_(scans)
 , max_ambiguity_(max_ambiguity)
 , num_threads_(num_threads)
 , progress_(progress)
+, memory_(memory)
 , of_scan_(scans.size())
 {}
 
-void
-PlaceHypotheses::add(const std::vector<RankedPair>& pairs)
+std::vector<PairMemory::Candidate>
+PlaceHypotheses::candidatesOf(const ScanPlaces& pair) const
 {
+  if (memory_)
+    if (const auto* known = memory_->candidates(pairOf(scans_, pair), max_ambiguity_))
+      return *known;
   PlaceSearchOptions options;
   options.max_ambiguity = max_ambiguity_;
   options.any_axis = false;
   options.num_threads = 1;
-  std::vector<PlaceResult> found(pairs.size());
+  const PlaceResult found =
+      placeScan(*scans_[pair.first], *scans_[pair.second], options);
+  std::vector<PairMemory::Candidate> candidates;
+  for (std::size_t k = 0; k < found.candidates.size(); ++k)
+    candidates.push_back({found.candidates[k].T_first_second,
+                          found.candidates[k].score,
+                          k == 0 && found.answer == PlaceAnswer::kUnique});
+  return candidates;
+}
+
+void
+PlaceHypotheses::add(const std::vector<RankedPair>& pairs)
+{
+  std::vector<std::vector<PairMemory::Candidate>> found(pairs.size());
   if (progress_)
     progress_({"placing", 0, pairs.size()});
   for (std::size_t begin = 0; begin < pairs.size(); begin += kPlacedAtATime) {
     const std::size_t count = std::min(kPlacedAtATime, pairs.size() - begin);
     parallelFor(count, num_threads_, [&](std::size_t k) {
-      const auto& [first, second] = pairs[begin + k].scans;
-      found[begin + k] = placeScan(*scans_[first], *scans_[second], options);
+      found[begin + k] = candidatesOf(pairs[begin + k].scans);
     });
+    for (std::size_t i = begin; i < begin + count && memory_; ++i)
+      memory_->keepCandidates(pairOf(scans_, pairs[i].scans), max_ambiguity_, found[i]);
     if (progress_)
       progress_({"placing", begin + count, pairs.size()});
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (std::size_t k = 0; k < found[i].candidates.size(); ++k) {
-      const PlaceCandidate& candidate = found[i].candidates[k];
-      if (candidate.score <= 0)
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [first, second] = pairs[i].scans;
+    for (const PairMemory::Candidate& one : found[i]) {
+      if (one.score <= 0)
         continue;
-      PlaceHypothesis one{pairs[i].scans.first,
-                          pairs[i].scans.second,
-                          candidate.T_first_second,
-                          candidate.score,
-                          candidate.score,
-                          k == 0 && found[i].answer == PlaceAnswer::kUnique};
-      of_scan_[one.first].push_back(all_.size());
-      of_scan_[one.second].push_back(all_.size());
-      all_.push_back(one);
+      of_scan_[first].push_back(all_.size());
+      of_scan_[second].push_back(all_.size());
+      all_.push_back(
+          {first, second, one.T_first_second, one.score, one.score, one.is_unique});
     }
+  }
   strengthen();
 }
 

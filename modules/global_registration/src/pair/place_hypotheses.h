@@ -29,7 +29,8 @@ public:
   PlaceHypotheses(const ScanList& scans,
                   double max_ambiguity,
                   unsigned int num_threads,
-                  const ProgressCallback& progress);
+                  const ProgressCallback& progress,
+                  PairMemory* memory = nullptr);
 
   /** \brief Registers pairs; a closed triangle strengthens its hypotheses. Reports progress as
    * "placing". */
@@ -56,6 +57,8 @@ public:
                      const std::set<ScanPlaces>& tried) const;
 
 private:
+  std::vector<PairMemory::Candidate>
+  candidatesOf(const ScanPlaces& pair) const;
   void
   strengthen();
 
@@ -63,6 +66,7 @@ private:
   double max_ambiguity_;
   unsigned int num_threads_;
   ProgressCallback progress_;
+  PairMemory* memory_;
   std::vector<PlaceHypothesis> all_;
   std::vector<std::vector<std::size_t>> of_scan_;
 };

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace pcl6d::global_registration {
 
@@ -15,16 +17,50 @@ namespace {
 constexpr std::size_t kLevelPoints = 300, kHeights = 2;
 constexpr int kApart = 4;
 
+/** Heights within this number of steps are counted in bins; others, of scattered points, are sorted. */
+constexpr std::size_t kMostBins = 1U << 14U;
+
+/** \return the values in ascending order, each with its number */
+std::vector<std::pair<int, int>>
+countOf(std::vector<int> values)
+{
+  std::vector<std::pair<int, int>> counts;
+  if (values.empty())
+    return counts;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const std::int64_t first = *low, range = std::int64_t{*high} - first + 1;
+  if (range < static_cast<std::int64_t>(kMostBins)) {
+    std::vector<int> bins(static_cast<std::size_t>(range));
+    for (const int value : values)
+      ++bins[static_cast<std::size_t>(value - first)];
+    for (std::size_t k = 0; k < bins.size(); ++k)
+      if (bins[k] > 0)
+        counts.emplace_back(static_cast<int>(first) + static_cast<int>(k), bins[k]);
+    return counts;
+  }
+  std::sort(values.begin(), values.end());
+  for (const int value : values) {
+    if (counts.empty() || counts.back().first != value)
+      counts.emplace_back(value, 0);
+    ++counts.back().second;
+  }
+  return counts;
+}
+
+/** \param[in] votes for the number of steps, with the count of each; ascending */
 std::vector<double>
-mostVoted(const std::map<int, int>& votes, double step)
+mostVoted(const std::vector<std::pair<int, int>>& votes, double step)
 {
   std::vector<std::pair<int, int>> best; // negative votes, height
-  const auto at = [&](int place) {
-    const auto found = votes.find(place);
-    return found == votes.end() ? 0 : found->second;
+  const auto countAt = [&](std::size_t i, std::int64_t place) {
+    return i < votes.size() && votes[i].first == place ? votes[i].second : 0;
   };
-  for (const auto& [place, count] : votes)
-    best.emplace_back(-(at(place - 1) + 2 * count + at(place + 1)), place);
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    const auto [place, count] = votes[i];
+    const int beside = (i > 0 ? countAt(i - 1, std::int64_t{place} - 1) : 0) +
+                       countAt(i + 1, std::int64_t{place} + 1);
+    best.emplace_back(-(beside + 2 * count), place);
+  }
   std::sort(best.begin(), best.end());
   std::vector<double> heights;
   std::vector<int> taken;
@@ -64,7 +100,7 @@ Floors::heightsAbove(const Floors& other,
                      const Eigen::Vector2d& shift,
                      double step) const
 {
-  std::map<int, int> votes;
+  std::vector<int> votes;
   const std::size_t stride =
       std::max<std::size_t>(1, other.points_.size() / kLevelPoints);
   for (std::size_t i = 0; i < other.points_.size(); i += stride) {
@@ -75,9 +111,9 @@ Floors::heightsAbove(const Floors& other,
       continue;
     for (const std::size_t k : found->second)
       if (up_[k] == other.up_[i])
-        ++votes[clampedTo<int>(std::floor((points_[k].z() - p.z()) / step))];
+        votes.push_back(clampedTo<int>(std::floor((points_[k].z() - p.z()) / step)));
   }
-  return mostVoted(votes, step);
+  return mostVoted(countOf(std::move(votes)), step);
 }
 
 Floors::Cell

@@ -77,8 +77,15 @@ uprightPoints(const Points& points,
   return all;
 }
 
-/** Cells with their indices in the table, by sector. */
-using Sectors = std::array<std::vector<Eigen::Vector2i>, kSectors>;
+/** \return [cells] edge of the table of votes for shifts between plans of this reach */
+int
+sideOf(int reach)
+{
+  return 4 * reach;
+}
+
+/** By sector: the cells within reach, each as its offset in the table of votes. */
+using Sectors = std::array<std::vector<int>, kSectors>;
 
 Sectors
 sectorsOf(const Plan& plan, double yaw, int reach)
@@ -90,9 +97,9 @@ sectorsOf(const Plan& plan, double yaw, int reach)
   for (const auto& cell : plan.cells) {
     const Eigen::Vector2d place = R * cell.place / plan.cell;
     if (place.cwiseAbs().maxCoeff() < reach)
-      sectors[static_cast<std::size_t>(sectorOf(R * cell.facing))].emplace_back(
-          static_cast<int>(std::floor(place.x())),
-          static_cast<int>(std::floor(place.y())));
+      sectors[static_cast<std::size_t>(sectorOf(R * cell.facing))].push_back(
+          static_cast<int>(std::floor(place.y())) * sideOf(reach) +
+          static_cast<int>(std::floor(place.x())));
   }
   return sectors;
 }
@@ -102,9 +109,12 @@ class VoteTable {
 public:
   /** \param[in] reach [cells] of both plans: their sum limits the shift */
   explicit VoteTable(int reach)
-  : side_(4 * reach)
+  : side_(sideOf(reach))
   , votes_(static_cast<std::size_t>(side_ * side_))
-  , sums_(static_cast<std::size_t>((side_ + 1) * (side_ + 1)))
+  , narrow_(static_cast<std::size_t>(side_))
+  , wide_(static_cast<std::size_t>(side_))
+  , left_(static_cast<std::size_t>(side_ + 1))
+  , is_peak_(static_cast<std::size_t>(side_))
   {}
 
   /** \return whether any shift has enough votes */
@@ -128,15 +138,18 @@ public:
   void
   addBest(double yaw, double cell, std::vector<PlanPlacement>& placements)
   {
-    sumSquares();
     std::vector<std::pair<double, int>> best;
-    for (int y = kAround + 1; y < side_ - kAround - 1; ++y)
-      for (int x = kAround + 1; x < side_ - kAround - 1; ++x) {
-        const std::uint32_t here = square(x, y, 1);
-        if (here < kLeastVotes || !isPeak(x, y))
-          continue;
-        best.emplace_back(-standingOut(x, y, here), y * side_ + x);
-      }
+    std::fill(wide_.begin(), wide_.end(), 0);
+    for (int y = 1; y < 2 * kAround + 1; ++y)
+      add(y, 1, wide_);
+    for (int y = kAround + 1; y < side_ - kAround - 1; ++y) {
+      add(y + kAround, 1, wide_);
+      sumBeside(y);
+      for (int x = kAround + 1; x < side_ - kAround - 1; ++x)
+        if (is_peak_[static_cast<std::size_t>(x)])
+          best.emplace_back(-standingOut(x), y * side_ + x);
+      add(y - kAround, -1, wide_);
+    }
     const std::size_t count = std::min(best.size(), kShiftsOfTurn);
     std::partial_sort(
         best.begin(), best.begin() + static_cast<std::ptrdiff_t>(count), best.end());
@@ -148,76 +161,86 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t kLeastVotes = 9;
+  static constexpr int kLeastVotes = 9;
 
+  /** Cells within reach of both plans never vote for a shift outside the table. */
   void
-  vote(const std::vector<Eigen::Vector2i>& fixed,
-       const std::vector<Eigen::Vector2i>& moved)
+  vote(const std::vector<int>& fixed, const std::vector<int>& moved)
   {
-    for (const auto& m : moved) {
-      const int start = (side_ / 2 - m.y()) * side_ + side_ / 2 - m.x();
-      for (const auto& f : fixed) {
-        const Eigen::Vector2i shift = f - m;
-        if (shift.cwiseAbs().maxCoeff() < side_ / 2)
-          ++votes_[static_cast<std::size_t>(start + f.y() * side_ + f.x())];
-      }
+    const int no_shift = side_ / 2 * side_ + side_ / 2;
+    for (const int m : moved) {
+      std::uint16_t* const start = votes_.data() + (no_shift - m);
+      for (const int f : fixed)
+        ++start[f];
     }
   }
 
-  /** Summed-area table of the votes left of and below a cell. */
+  const std::uint16_t*
+  row(int y) const
+  {
+    return votes_.data() + static_cast<std::ptrdiff_t>(y) * side_;
+  }
+
   void
-  sumSquares()
+  add(int y, int times, std::vector<int>& columns) const
   {
-    for (int y = 0; y < side_; ++y) {
-      std::uint32_t row = 0;
-      for (int x = 0; x < side_; ++x) {
-        row += votes_[static_cast<std::size_t>(y * side_ + x)];
-        sums_[static_cast<std::size_t>((y + 1) * (side_ + 1) + x + 1)] =
-            sums_[static_cast<std::size_t>(y * (side_ + 1) + x + 1)] + row;
-      }
+    const std::uint16_t* const votes = row(y);
+    for (int x = 0; x < side_; ++x)
+      columns[static_cast<std::size_t>(x)] += times * votes[x];
+  }
+
+  /** Sums of the votes around the cells of a row, and its peaks: cells with enough votes around,
+   * and at least as many as each neighbour. */
+  void
+  sumBeside(int y)
+  {
+    const std::uint16_t *const below = row(y - 1), *const here = row(y),
+                               *const above = row(y + 1);
+    for (int x = 0; x < side_; ++x)
+      narrow_[static_cast<std::size_t>(x)] = below[x] + here[x] + above[x];
+    for (int x = 1; x < side_ - 1; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const int most = std::max({here[x - 1],
+                                 here[x + 1],
+                                 below[x - 1],
+                                 below[x],
+                                 below[x + 1],
+                                 above[x - 1],
+                                 above[x],
+                                 above[x + 1]});
+      is_peak_[i] = static_cast<char>((here[x] >= most) & (square(x) >= kLeastVotes));
     }
+    for (std::size_t x = 0; x < wide_.size(); ++x)
+      left_[x + 1] = left_[x] + wide_[x];
   }
 
-  /** Votes of a square around a cell. */
-  std::uint32_t
-  square(int x, int y, int beyond) const
+  /** Votes of the cell of the current row and its eight neighbours. */
+  int
+  square(int x) const
   {
-    const auto at = [this](int column, int row) {
-      return sums_[static_cast<std::size_t>(row * (side_ + 1) + column)];
-    };
-    const int left = x - beyond, right = x + beyond + 1;
-    const int low = y - beyond, high = y + beyond + 1;
-    return at(right, high) - at(left, high) - at(right, low) + at(left, low);
-  }
-
-  bool
-  isPeak(int x, int y) const
-  {
-    const std::uint16_t* const here = &votes_[static_cast<std::size_t>(y * side_ + x)];
-    const std::uint16_t most = std::max({here[-1],
-                                         here[1],
-                                         here[-side_],
-                                         here[side_],
-                                         here[-side_ - 1],
-                                         here[1 - side_],
-                                         here[side_ - 1],
-                                         here[side_ + 1]});
-    return *here >= most;
+    const auto i = static_cast<std::size_t>(x);
+    return narrow_[i - 1] + narrow_[i] + narrow_[i + 1];
   }
 
   /** [standard deviations] of the chance votes, at the rate of the surroundings. */
   double
-  standingOut(int x, int y, std::uint32_t here) const
+  standingOut(int x) const
   {
     constexpr double kSquare = 9, kAll = (2 * kAround + 1) * (2 * kAround + 1);
-    const double around = square(x, y, kAround) - here;
+    const double here = square(x);
+    const double around = left_[static_cast<std::size_t>(x + kAround + 1)] -
+                          left_[static_cast<std::size_t>(x - kAround)] - here;
     const double expected = around * kSquare / (kAll - kSquare);
     return (here - expected) / std::sqrt(expected + kSquare);
   }
 
   int side_; ///< of the table
   std::vector<std::uint16_t> votes_;
-  std::vector<std::uint32_t> sums_;
+  // Of the current row:
+  std::vector<int> narrow_,
+      wide_;              ///< votes of each column, up to 1 and kAround rows away
+  std::vector<int> left_; ///< sums of wide_ left of each column
+  std::vector<char> is_peak_;
 };
 
 bool

@@ -89,9 +89,9 @@ takePart(const Slam6DResult& part,
 
 GlobalStage::GlobalStage(const Slam6DOptions& options,
                          const KeptScans& scans,
-                         const std::deque<VerifiedScan>& verified,
+                         Recovery& recovery,
                          const StageMaker& make_stage)
-: options_(options), scans_(scans), verified_(verified), make_stage_(make_stage)
+: options_(options), scans_(scans), recovery_(recovery), make_stage_(make_stage)
 {}
 
 void
@@ -134,11 +134,12 @@ GlobalStage::join(const std::vector<std::size_t>& runs,
                   const ProgressCallback& report) const
 {
   std::deque<PlaceableScan> placeable;
-  for (const auto& scan : verified_) {
-    placeable.emplace_back(scan);
-    report({"preparing", placeable.size(), verified_.size()});
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    placeable.push_back(recovery_.placeable(i));
+    report({"preparing", placeable.size(), scans.size()});
   }
   JoinOptions join;
+  join.memory = &recovery_.pairs();
   join.num_threads = options_.num_threads;
   join.progress = report;
   join.known = knownPlaces(runs, scans);

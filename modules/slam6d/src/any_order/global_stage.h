@@ -4,15 +4,14 @@
 #include "graph/graph_stage.h"
 #include "matching/kept_scans.h"
 #include "matching/scan_matcher.h"
+#include "recovery/recovery.h"
 
 #include <pcl6d/common/progress.h>
 #include <pcl6d/global_registration/scan_joiner.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/slam6d/slam6d_result.h>
-#include <pcl6d/verification/verified_scan.h>
 
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <vector>
 
@@ -28,11 +27,11 @@ class GlobalStage {
 public:
   /** All arguments except make_stage are kept by reference.
    * \param[in] scans with all measured points in the process that matches
-   * \param[in] verified the scans' rays and surfaces
+   * \param[in] recovery prepares the scans for place recognition
    * \param[in] make_stage copied */
   GlobalStage(const Slam6DOptions& options,
               const KeptScans& scans,
-              const std::deque<VerifiedScan>& verified,
+              Recovery& recovery,
               const StageMaker& make_stage);
 
   /** \brief Registers all scans. Groups are placed side by side: groups after the first are
@@ -71,7 +70,7 @@ private:
 
   const Slam6DOptions& options_;
   const KeptScans& scans_;
-  const std::deque<VerifiedScan>& verified_;
+  Recovery& recovery_;
   StageMaker make_stage_;
 };
 

@@ -303,6 +303,7 @@ Recovery::findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans)
   }
   list.push_back(placeable(scan));
   join.known.emplace_back(std::nullopt);
+  join.memory = &pairs_;
   join.num_threads = options_.num_threads;
   const JoinedScans joined = joinScans(list, join);
   const JoinedScan& placed = joined.scans.back();

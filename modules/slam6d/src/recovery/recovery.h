@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
+#include <pcl6d/global_registration/pair_memory.h>
 #include <pcl6d/global_registration/place_by_guesses.h>
 #include <pcl6d/slam6d/slam6d_options.h>
 #include <pcl6d/verification/verified_scan.h>
@@ -100,6 +101,13 @@ public:
   const PlaceableScan&
   placeable(std::size_t scan);
 
+  /** \return the results of all searches of the run among pairs of scans */
+  PairMemory&
+  pairs()
+  {
+    return pairs_;
+  }
+
 private:
   std::vector<std::size_t>
   around(std::size_t scan,
@@ -123,6 +131,7 @@ private:
   const Slam6DOptions& options_;
   const std::deque<VerifiedScan>& verified_;
   std::deque<std::optional<PlaceableScan>> placeable_; ///< made when first needed
+  PairMemory pairs_;
 };
 
 } // namespace pcl6d::slam6d

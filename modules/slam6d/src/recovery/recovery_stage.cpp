@@ -135,6 +135,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
 {
   std::deque<PlaceableScan> list;
   JoinOptions join;
+  join.memory = &recovery_.pairs();
   join.num_threads = options_.num_threads;
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);

@@ -77,16 +77,21 @@ private:
     const Slam6DResult ordered = std::move(state.result);
     forgetRegistration(before, state);
     state.options.given_links = links;
+    const bool is_continued = is_whole && isMostlyConnected(ordered);
+    if (is_continued)
+      keepConnected(ordered, state.result);
     if (!is_whole || !tryAnyOrder(state, context))
       throw Cancelled();
-    const StartResult any_order = startOf(state.result, InitialGuess::kGlobal);
+    StartResult any_order = startOf(state.result, InitialGuess::kGlobal);
+    any_order.is_continued = is_continued;
     const bool is_ordered = ordered.starts[0].connected > any_order.connected;
     if (is_ordered) {
       state.result = ordered;
       state.options.initial_guess = InitialGuess::kOdometry;
     }
     starts = {ordered.starts[0], any_order};
-    starts[is_ordered ? 0 : 1].is_kept = true;
+    starts[0].is_kept = is_ordered || is_continued;
+    starts[1].is_kept = !is_ordered;
     context.observe(state.result);
   }
 
@@ -102,7 +107,7 @@ private:
     const bool is_whole = start.is_complete || isOrderHopeless(state);
     if (start.is_complete) {
       state.result.scans.front().start = InitialGuess::kGlobal; // no measured pose
-      state.verification.verify(state.scans.names(), state.result);
+      state.verification.verifyTrial(state.scans.names(), state.result);
       start = startOf(state.result, InitialGuess::kOdometry);
     }
     state.result.starts = {start};
@@ -118,6 +123,28 @@ private:
       return false;
     state.verification.verify(state.scans.names(), state.result);
     return true;
+  }
+
+  /** \return whether the order connects more than half of the scans: without them, no other
+   * start could connect as many */
+  static bool
+  isMostlyConnected(const Slam6DResult& ordered)
+  {
+    return 2 * ordered.starts[0].connected > ordered.scans.size();
+  }
+
+  /** Keeps the scans that the order connects; the others are joined to them in any order. */
+  static void
+  keepConnected(const Slam6DResult& ordered, Slam6DResult& result)
+  {
+    bool is_first = true;
+    for (std::size_t i = 0; i < result.scans.size(); ++i) {
+      if (!isRegistered(ordered.scans[i]) || !ordered.verification->scans[i].tied)
+        continue;
+      result.scans[i] = ordered.scans[i];
+      if (std::exchange(is_first, false))
+        result.scans[i].state = ScanState::kFixed; // holds the world
+    }
   }
 
   /** Restores the unregistered scans. */

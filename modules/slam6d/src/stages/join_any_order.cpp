@@ -9,12 +9,10 @@ class JoinAnyOrder : public Stage {
   StageEnd
   run(SlamState& state, SlamContext& context) override
   {
-    const GlobalStage stage(state.options,
-                            state.scans,
-                            state.verification.scans(),
-                            [&](const Slam6DParameters& now) {
-                              return state.makeGraphStage(context.sharing, now);
-                            });
+    const GlobalStage stage(
+        state.options, state.scans, state.recovery, [&](const Slam6DParameters& now) {
+          return state.makeGraphStage(context.sharing, now);
+        });
     stage.run(
         state.groups,
         context.sharing,

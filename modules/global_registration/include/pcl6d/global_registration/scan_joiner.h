@@ -4,6 +4,7 @@
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/common/rejection.h>
+#include <pcl6d/global_registration/pair_memory.h>
 #include <pcl6d/global_registration/placeable_scan.h>
 
 #include <Eigen/Geometry>
@@ -57,6 +58,7 @@ struct JoinOptions {
   /** pairs allowed for comparison; empty: every pair. Pairs within a known group are never
    * compared */
   std::vector<std::pair<std::size_t, std::size_t>> pairs = {};
+  PairMemory* memory = nullptr; ///< of earlier calls, and for later ones; null: none
   unsigned int num_threads = 0; ///< 0: a thread per core; never changes the result
   /** "comparing" and "placing"; may throw to stop the search */
   ProgressCallback progress = {};

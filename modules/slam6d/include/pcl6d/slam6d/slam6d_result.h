@@ -46,7 +46,9 @@ struct StartResult {
   std::size_t connected =
       0;                   ///< scans connected with the first scan by the verification
   bool is_complete = true; ///< false: stopped, with too many unmatched scans
-  bool is_kept = false;    ///< is the final result
+  bool is_continued =
+      false; ///< keeps the scans that the start before connected, and adds others
+  bool is_kept = false; ///< is in the final result
 };
 
 /** \brief The result of Slam6D. */

@@ -28,6 +28,9 @@ struct MapVerifierOptions {
   std::vector<bool> unsure;
   /** displaces the most certain link of each scan, to find the detectable shift */
   bool probe = true;
+  /** if any scan is disconnected, neither searches for second poses nor probes: enough to compare
+   * maps */
+  bool brief_if_disconnected = false;
   unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
   WorkSharing* sharing = nullptr; ///< between processes; null: none
   /** \throws BadArgument naming the first invalid field, with its value */

@@ -34,9 +34,10 @@ Joiner::Joiner(const ScanList& scans,
               options.progress,
               options.memory)
 , placement_(scans, hypotheses_, options.max_ambiguity, options.num_threads)
-, joined_(scans.size())
-, rejections_(scans.size())
-{}
+{
+  grown_.joined.resize(scans.size());
+  grown_.rejections.resize(scans.size());
+}
 
 void
 Joiner::run(JoinedScans& result)
@@ -50,12 +51,12 @@ Joiner::run(JoinedScans& result)
         return isKnown(scan);
       }));
   growKnown();
-  while (const auto seed = hypotheses_.strongestBeginning(joined_, tried_))
-    addGrown(*seed);
+  while (const auto seed = hypotheses_.strongestBeginning(grown_.joined, grown_.tried))
+    addLargest(*seed);
   mergeGroups();
   testAgain();
   const auto is_inside = [this](std::size_t scan) {
-    return !groups_.empty() && groups_[0].scans.placeOf(scan).has_value();
+    return !grown_.groups.empty() && grown_.groups[0].scans.placeOf(scan).has_value();
   };
   place(furtherPairs(ranked_,
                      placed_,
@@ -100,53 +101,66 @@ Joiner::place(std::vector<RankedPair> pairs)
     hypotheses_.add(pairs);
 }
 
-/** Removes members that fit another group as well, if the two groups were not merged. */
+/** Removes members that fit another group as well, if the two groups were not merged, and the
+ * other group, grown from all scans, is not much smaller than their own. */
 void
 Joiner::leaveTorn()
 {
   std::vector<std::vector<std::size_t>> groups;
-  for (const JoinedGroup& group : groups_) {
+  std::vector<std::size_t> sizes(scans_.size()); // for each scan: of its group
+  for (const JoinedGroup& group : grown_.groups) {
     groups.emplace_back();
-    for (const PlacedScan& one : group.scans.members())
+    for (const PlacedScan& one : group.scans.members()) {
       groups.back().push_back(one.scan);
+      sizes[one.scan] = group.scans.members().size();
+    }
   }
-  const auto has_place = [&](std::size_t scan, std::size_t group) {
-    if (isKnown(scan))
+  const auto has_place = [&](std::size_t scan, std::size_t other) {
+    const JoinedGroup& group = grown_.groups[other];
+    if (isKnown(scan) || !isComparable(group.most, sizes[scan]))
       return false;
-    const auto places = placement_.placesOf(scan, groups_[group].scans);
+    const auto places = placement_.placesOf(scan, group.scans);
     return !places.empty() &&
-           placement_.settle(scan, places, groups_[group].scans, links_).accepted;
+           placement_.settle(scan, places, group.scans, grown_.links).accepted;
   };
-  const auto torn = tornScans(groups, joined_by_, has_place);
+  const auto torn = tornScans(groups, grown_.joined_by, has_place);
   for (const std::size_t scan : torn) {
     if (isKnown(scan))
       continue;
-    for (JoinedGroup& group : groups_)
+    for (JoinedGroup& group : grown_.groups)
       group.scans.remove(scan);
-    joined_[scan] = false;
-    rejections_[scan] = RejectReason::kInTwoGroups;
+    grown_.joined[scan] = false;
+    grown_.rejections[scan] = RejectReason::kInTwoGroups;
   }
   if (!torn.empty())
-    for (JoinedGroup& group : groups_)
+    for (JoinedGroup& group : grown_.groups)
       cutDisconnected(group.scans);
   dropSingles();
+}
+
+/** \return whether a group of this size is a second explanation of the scans of a group, as a
+ * second pose is of a scan */
+bool
+Joiner::isComparable(std::size_t size, std::size_t own) const
+{
+  return static_cast<double>(size) > options_.max_ambiguity * static_cast<double>(own);
 }
 
 /** A group with a single remaining scan is dissolved. */
 void
 Joiner::dropSingles()
 {
-  for (auto group = groups_.begin(); group != groups_.end();) {
+  for (auto group = grown_.groups.begin(); group != grown_.groups.end();) {
     const auto& members = group->scans.members();
     if (members.size() > 1 || (members.size() == 1 && isKnown(members[0].scan))) {
       ++group;
       continue;
     }
     for (const PlacedScan& one : members) {
-      joined_[one.scan] = false;
-      rejections_[one.scan] = RejectReason::kNeighbourInTwoGroups;
+      grown_.joined[one.scan] = false;
+      grown_.rejections[one.scan] = RejectReason::kNeighbourInTwoGroups;
     }
-    group = groups_.erase(group);
+    group = grown_.groups.erase(group);
   }
 }
 
@@ -154,7 +168,7 @@ Joiner::dropSingles()
 void
 Joiner::testAgain()
 {
-  for (JoinedGroup& group : groups_)
+  for (JoinedGroup& group : grown_.groups)
     for (int k = 0; k < kRechecks; ++k) {
       const bool is_changed = recheck(group.scans);
       if (grow(group.scans) == 0 && !is_changed)
@@ -171,12 +185,42 @@ Joiner::growKnown()
     if (known_[i]) {
       known.emplace(known_[i]->group, ScanGroup(scans_))
           .first->second.add(i, known_[i]->T_group_scan);
-      joined_[i] = true;
+      grown_.joined[i] = true;
     }
   for (auto& [number, group] : known) {
     grow(group);
-    groups_.push_back({group, {}});
+    grown_.groups.push_back({group, {}, scans_.size()}); // its scans stay
   }
+}
+
+/** Grows a group from a seed. A group grown earlier, from a stronger seed, may have begun with two
+ * places that look alike, and then lacks the scans that contradict it: if the new group grows larger
+ * than any before, with all scans at its disposal, it replaces them. */
+void
+Joiner::addLargest(const PlaceHypothesis& seed)
+{
+  std::size_t largest = 0, alone = 0;
+  for (const JoinedGroup& group : grown_.groups)
+    largest = std::max(largest, group.scans.members().size());
+  const bool has_known = std::any_of(
+      known_.begin(), known_.end(), [](const auto& one) { return one.has_value(); });
+  if (largest > 0 && !has_known) {
+    Grown before = grown_;
+    grown_ = {};
+    grown_.joined.resize(scans_.size());
+    grown_.rejections.resize(scans_.size());
+    grown_.tried = before.tried;
+    addGrown(seed);
+    for (const JoinedGroup& group : grown_.groups)
+      alone = std::max(alone, group.scans.members().size());
+    if (alone > largest)
+      return;
+    grown_ = std::move(before);
+  }
+  const std::size_t first = grown_.groups.size();
+  addGrown(seed);
+  for (std::size_t g = first; g < grown_.groups.size(); ++g)
+    grown_.groups[g].most = std::max(grown_.groups[g].most, alone);
 }
 
 void
@@ -185,17 +229,20 @@ Joiner::addGrown(const PlaceHypothesis& seed)
   ScanGroup group(scans_);
   group.add(seed.first, Eigen::Isometry3d::Identity());
   group.add(seed.second, seed.T_first_second);
-  tried_.insert({seed.first, seed.second});
-  joined_[seed.first] = joined_[seed.second] = true;
+  grown_.tried.insert({seed.first, seed.second});
+  grown_.joined[seed.first] = grown_.joined[seed.second] = true;
   grow(group);
   for (int k = 0; k < kRechecks && recheck(group); ++k)
     grow(group);
   cutDisconnected(group);
-  const auto parts = splitOff(
-      group, joined_by_, hypotheses_, options_.max_ambiguity, options_.num_threads);
+  const auto parts = splitOff(group,
+                              grown_.joined_by,
+                              hypotheses_,
+                              options_.max_ambiguity,
+                              options_.num_threads);
   for (const ScanGroup& part : parts)
-    groups_.push_back({part, {}});
-  groups_.push_back({group, {}});
+    grown_.groups.push_back({part, {}, part.members().size()});
+  grown_.groups.push_back({group, {}, group.members().size()});
 }
 
 /** Members disconnected from the rest by the link test leave the group. */
@@ -205,12 +252,12 @@ Joiner::cutDisconnected(ScanGroup& group)
   if (group.members().size() < 3)
     return;
   for (const auto& [scan, why] :
-       disconnectedOf(group, joined_by_, options_.num_threads)) {
+       disconnectedOf(group, grown_.joined_by, options_.num_threads)) {
     if (isKnown(scan))
       continue;
     group.remove(scan);
-    joined_[scan] = false;
-    rejections_[scan] = why;
+    grown_.joined[scan] = false;
+    grown_.rejections[scan] = why;
   }
 }
 
@@ -227,7 +274,7 @@ void
 Joiner::sortGroups()
 {
   std::stable_sort(
-      groups_.begin(), groups_.end(), [this](const auto& a, const auto& b) {
+      grown_.groups.begin(), grown_.groups.end(), [this](const auto& a, const auto& b) {
         const std::size_t rank_a = rankOf(a.scans), rank_b = rankOf(b.scans);
         return rank_a != rank_b ? rank_a < rank_b
                                 : a.scans.members().size() > b.scans.members().size();
@@ -239,10 +286,10 @@ void
 Joiner::mergeGroups()
 {
   sortGroups();
-  for (std::size_t to = 0; to < groups_.size(); ++to)
-    for (std::size_t from = to + 1; from < groups_.size();)
-      if (merge(groups_[to], groups_[from])) {
-        groups_.erase(groups_.begin() + static_cast<std::ptrdiff_t>(from));
+  for (std::size_t to = 0; to < grown_.groups.size(); ++to)
+    for (std::size_t from = to + 1; from < grown_.groups.size();)
+      if (merge(grown_.groups[to], grown_.groups[from])) {
+        grown_.groups.erase(grown_.groups.begin() + static_cast<std::ptrdiff_t>(from));
         from = to + 1; // further groups may have a pose relative to the union
       }
       else
@@ -267,6 +314,7 @@ Joiner::merge(JoinedGroup& to, JoinedGroup& from)
     return false;
   for (const auto& one : from.scans.members())
     to.scans.add(one.scan, T * one.T_group_scan);
+  to.most = std::max({to.most, from.most, to.scans.members().size()});
   return true;
 }
 
@@ -282,13 +330,13 @@ Joiner::settleBlock(const ScanGroup& to,
   Place at;
   at.T_group_scan = place.T_group_block * fixing.T_group_scan;
   at.support = place.support;
-  const Settled settled = placement_.settle(fixing.scan, {at}, to, links_);
+  const Settled settled = placement_.settle(fixing.scan, {at}, to, grown_.links);
   if (!settled.accepted)
     return settled.rejection;
   T_group_block = settled.best.T_group_scan * fixing.T_group_scan.inverse();
   if (Rejection contradiction = contradictionOf(block, T_group_block, to))
     return contradiction;
-  links_.insert(links_.end(), settled.links.begin(), settled.links.end());
+  grown_.links.insert(grown_.links.end(), settled.links.begin(), settled.links.end());
   return {};
 }
 
@@ -307,7 +355,7 @@ Joiner::contradictionOf(const ScanGroup& block,
     contradiction = placement_.rejectionOf(one.scan,
                                            T_group_block * one.T_group_scan,
                                            group,
-                                           links_,
+                                           grown_.links,
                                            PlaceNeeds::kNoContradiction);
   }
   return contradiction;
@@ -323,7 +371,7 @@ Joiner::grow(ScanGroup& group)
   while (true) {
     std::vector<std::size_t> wanted;
     for (std::size_t u = 0; u < scans_.size(); ++u)
-      if (!joined_[u] && !is_known[u])
+      if (!grown_.joined[u] && !is_known[u])
         wanted.push_back(u);
     parallelFor(wanted.size(), options_.num_threads, [&](std::size_t k) {
       places[wanted[k]] = placement_.placesOf(wanted[k], group);
@@ -333,10 +381,10 @@ Joiner::grow(ScanGroup& group)
     const std::size_t next = clearest(places, is_refused);
     if (next == scans_.size())
       return group.members().size() - before;
-    Settled settled = placement_.settle(next, places[next], group, links_);
+    Settled settled = placement_.settle(next, places[next], group, grown_.links);
     if (!settled.accepted) {
       is_refused[next] = true;
-      rejections_[next] = settled.rejection;
+      grown_.rejections[next] = settled.rejection;
       continue;
     }
     join(next, settled, group);
@@ -351,11 +399,11 @@ Joiner::grow(ScanGroup& group)
 void
 Joiner::join(std::size_t scan, const Settled& settled, ScanGroup& group)
 {
-  joined_by_[scan] = group.members()[settled.best.support.met.front()].scan;
+  grown_.joined_by[scan] = group.members()[settled.best.support.met.front()].scan;
   group.add(scan, settled.best.T_group_scan);
-  joined_[scan] = true;
-  rejections_[scan] = {};
-  links_.insert(links_.end(), settled.links.begin(), settled.links.end());
+  grown_.joined[scan] = true;
+  grown_.rejections[scan] = {};
+  grown_.links.insert(grown_.links.end(), settled.links.begin(), settled.links.end());
 }
 
 /** \return the scan with the best pose among scans neither joined nor rejected */
@@ -365,7 +413,7 @@ Joiner::clearest(const std::vector<std::vector<Place>>& places,
 {
   std::size_t best = scans_.size();
   for (std::size_t u = 0; u < scans_.size(); ++u)
-    if (!joined_[u] && !is_refused[u] && !places[u].empty() &&
+    if (!grown_.joined[u] && !is_refused[u] && !places[u].empty() &&
         (best == scans_.size() ||
          places[u].front().support.score > places[best].front().support.score))
       best = u;
@@ -386,16 +434,17 @@ Joiner::recheck(ScanGroup& group)
     auto places = placement_.placesOf(scan, group);
     if (places.empty())
       continue;
-    const Settled settled = placement_.settle(scan, places, group, links_);
+    const Settled settled = placement_.settle(scan, places, group, grown_.links);
     if (settled.accepted && areSamePlace(settled.best.T_group_scan,
                                          members[k].T_group_scan,
                                          scans_[scan]->cell())) {
       continue;
     }
     group.remove(scan);
-    joined_[scan] = false;
-    rejections_[scan] = settled.accepted ? Rejection(RejectReason::kBetterPoseElsewhere)
-                                         : settled.rejection;
+    grown_.joined[scan] = false;
+    grown_.rejections[scan] = settled.accepted
+                                  ? Rejection(RejectReason::kBetterPoseElsewhere)
+                                  : settled.rejection;
     is_changed = true;
   }
   return is_changed;

@@ -19,6 +19,8 @@ namespace pcl6d::global_registration {
 struct JoinedGroup {
   ScanGroup scans;
   Rejection rejection;
+  std::size_t most =
+      0; ///< number of its scans; more if all scans had been at its disposal
 };
 
 /** \brief One run of joinScans(); scans in the order of their content. */
@@ -41,12 +43,12 @@ public:
   const std::vector<JoinedGroup>&
   groups() const
   {
-    return groups_;
+    return grown_.groups;
   }
   const Rejection&
   rejectionOf(std::size_t scan) const
   {
-    return rejections_[scan];
+    return grown_.rejections[scan];
   }
 
   bool
@@ -56,18 +58,32 @@ public:
   }
 
 private:
+  /** Groups, and what is known about their scans. */
+  struct Grown {
+    std::vector<JoinedGroup> groups;
+    std::vector<bool> joined;
+    std::vector<Rejection> rejections;
+    std::set<ScanPlaces> tried; ///< seeds
+    JoinedBy joined_by;
+    std::vector<LinkEvidence> links; ///< of joined scans
+  };
+
   std::vector<ScanPlaces>
   comparedPairs() const;
   void
   place(std::vector<RankedPair> pairs);
   void
   leaveTorn();
+  bool
+  isComparable(std::size_t size, std::size_t own) const;
   void
   dropSingles();
   void
   testAgain();
   void
   growKnown();
+  void
+  addLargest(const PlaceHypothesis& seed);
   void
   addGrown(const PlaceHypothesis& seed);
   void
@@ -105,14 +121,9 @@ private:
   std::vector<ScanPlaces> pairs_;
   PlaceHypotheses hypotheses_;
   JointPlacement placement_;
-  std::vector<bool> joined_;
-  std::vector<Rejection> rejections_;
   std::vector<RankedPair> ranked_;
   std::set<ScanPlaces> placed_; // pairs
-  std::set<ScanPlaces> tried_;
-  JoinedBy joined_by_;
-  std::vector<LinkEvidence> links_; // of joined scans
-  std::vector<JoinedGroup> groups_;
+  Grown grown_;
 };
 
 } // namespace pcl6d::global_registration

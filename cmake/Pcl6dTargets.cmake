@@ -138,6 +138,34 @@ function(pcl6d_add_module name)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pcl6d COMPONENT ${name})
 endfunction()
 
+# pcl6d_add_part(MODULE PART SOURCES ... [LINK_PRIVATE targets ...])
+# makes the static library pcl6d::MODULE_PART: sources of a module whose headers are all internal,
+# for those programs and tests that name it in DEPENDS. Whoever links the module alone, such as the
+# target demo, does not compile them. A part uses of its module only what that shows to others
+# (PCL6D_EXPORTS). Nothing of it is installed. COOL as in pcl6d_add_module.
+function(pcl6d_add_part module part)
+  cmake_parse_arguments(PARSE_ARGV 2 ARG "COOL" "" "SOURCES;LINK_PRIVATE")
+  _pcl6d_check_arguments("pcl6d_add_part(${module} ${part})")
+  set(target pcl6d_${module}_${part})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(pcl6d::${module}_${part} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES
+    DEFINE_SYMBOL ""
+    POSITION_INDEPENDENT_CODE ON # as the module, so that they share a precompiled header
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+  _pcl6d_compile_rules(${target})
+  _pcl6d_unity(${target} "")
+  if(ARG_COOL)
+    target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+    pcl6d_precompile(${target} cool)
+  else()
+    pcl6d_precompile(${target} hot)
+  endif()
+  target_include_directories(${target} PRIVATE src)
+  target_link_libraries(${target} PUBLIC pcl6d_${module} PRIVATE ${ARG_LINK_PRIVATE})
+endfunction()
+
 # pcl6d_add_late_library(NAME SOURCES ... LINK_PRIVATE targets ... COMPONENT name)
 # makes a library that nothing is linked with, so that who needs none of it need not build
 # it: it is opened when it is asked for (late_library.h). For shared libraries only; where

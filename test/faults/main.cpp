@@ -46,7 +46,8 @@ describe(Settings& s)
   add("time-limit", po::value(&s.time_limit), "[s] of a program");
   add("seconds",
       po::value(&s.seconds),
-      "[s] after which no case is begun, in a mixed order; default: no end");
+      "[s] from the first case on, after which none is begun, in a mixed order; "
+      "default: no end");
   add("keep", po::value(&s.keep), "folder that gets the inputs of each finding");
   add("pattern",
       po::value(&s.pattern),
@@ -101,7 +102,6 @@ keep(const Case& one, const Trace& trace, const Settings& s, const fs::path& sam
 int
 run(const Settings& s)
 {
-  const auto begin = std::chrono::steady_clock::now();
   const pcl6d::test::TempFolder folder;
   const fs::path samples = folder / "samples";
   std::cerr << "samples ..." << std::endl;
@@ -120,9 +120,10 @@ run(const Settings& s)
   options.scratch = folder / "scratch";
   options.jobs = s.jobs;
   options.limits.seconds = s.time_limit;
-  if (s.seconds > 0)
+  if (s.seconds > 0) // from here on: on a busy machine the samples alone take minutes
     options.last_start =
-        begin + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * s.seconds));
+        std::chrono::steady_clock::now() +
+        std::chrono::milliseconds(static_cast<std::int64_t>(1000 * s.seconds));
   runCases(cases, options, [&](const Case& one, const Trace& trace) {
     std::vector<Finding> findings;
     for (const Finding& finding : evaluate(one, trace))

@@ -3,8 +3,11 @@
 
 #include <pcl6d/common/error.h>
 
-#include <boost/process.hpp>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/error.hpp>
 #include <boost/process/extend.hpp>
+#include <boost/process/io.hpp>
 
 #include <cerrno>
 #include <csignal>

@@ -108,7 +108,7 @@ surestLinkOf(std::size_t scan, const MapVerification& map)
 std::size_t
 linkBetween(std::size_t scan, std::size_t other, const MapVerification& map)
 {
-  const auto [from, to] = std::minmax({scan, other});
+  const std::size_t from = std::min(scan, other), to = std::max(scan, other);
   const auto link =
       std::find_if(map.links.begin(), map.links.end(), [&](const auto& l) {
         return l.from == from && l.to == to;

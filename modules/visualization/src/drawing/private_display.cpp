@@ -4,8 +4,12 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/visualization/private_display.h>
 
-#include <boost/process.hpp>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/error.hpp>
 #include <boost/process/extend.hpp>
+#include <boost/process/io.hpp>
+#include <boost/process/pipe.hpp>
 
 #include <X11/Xlib.h>
 #include <chrono>

@@ -180,8 +180,8 @@ hallModel(Random& random, double height, double patch)
     const double along = random.uniform(-10, 10), side = i % 2 == 0 ? -10 : 10;
     const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
     const double up = random.uniform(-1, 3);
-    const Eigen::Vector3d p = i % 4 < 2 ? Eigen::Vector3d(along, side, up)
-                                        : Eigen::Vector3d(side, along, up);
+    const Eigen::Vector3d p =
+        i % 4 < 2 ? Eigen::Vector3d(along, side, up) : Eigen::Vector3d(side, along, up);
     points.push_back((p + 0.01 * noise).cast<float>());
   }
   for (int i = 0; i < 64; ++i)

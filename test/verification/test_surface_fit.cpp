@@ -240,7 +240,9 @@ TEST(SurfaceFit, FewPatchesOfAFloorFixTheHeight)
       const double along = random.uniform(-10, 10), side = i % 2 == 0 ? -10 : 10;
       const Vector p = i % 4 < 2 ? Vector(along, side, random.uniform(-1, 3))
                                  : Vector(side, along, random.uniform(-1, 3));
-      points.push_back((p + 0.005 * Vector(random.normal(), random.normal(), random.normal())).cast<float>());
+      points.push_back(
+          (p + 0.005 * Vector(random.normal(), random.normal(), random.normal()))
+              .cast<float>());
     }
     for (int i = 0; i < 640; ++i)
       points.push_back(Vector(4 * (i % 4) - 6 + random.uniform(0, 0.3),

@@ -66,8 +66,7 @@ facingOf(const PairDirection& way, std::size_t i, float limit_sq)
       way.T_in_of.linear() * way.of.surfaces().normals()[i].cast<double>();
   if (normals[k].isZero(0) || !(other.dot(normal) > 0))
     return std::nullopt;
-  return Facing{
-      place, normal, other, way.in.surfaces().points()[k].cast<double>()};
+  return Facing{place, normal, other, way.in.surfaces().points()[k].cast<double>()};
 }
 
 /** Pairs an even selection of the points of a scan with surfaces of another scan. */
@@ -78,8 +77,7 @@ pairEvenly(const PairDirection& way,
 {
   const std::size_t count = way.of.surfaces().points().size();
   const std::size_t stride = std::max<std::size_t>(1, count / options.points);
-  const auto limit_sq =
-      static_cast<float>(options.max_distance * options.max_distance);
+  const auto limit_sq = static_cast<float>(options.max_distance * options.max_distance);
   for (std::size_t i = stride / 2; i < count; i += stride) {
     ++found.looked_at;
     if (const auto facing = facingOf(way, i, limit_sq))
@@ -174,8 +172,7 @@ verification::pairSurfaces(const VerifiedScan& first,
 {
   options.validate();
   const std::array<PairDirection, 2> ways{
-      PairDirection{
-          second, first, T_first_second, Eigen::Isometry3d::Identity(), true},
+      PairDirection{second, first, T_first_second, Eigen::Isometry3d::Identity(), true},
       PairDirection{first, second, T_first_second.inverse(), T_first_second, false}};
   SurfacePairs found;
   found.voxel = std::max(first.voxel(), second.voxel());

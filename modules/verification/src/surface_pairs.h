@@ -17,7 +17,7 @@ struct SurfacePair {
   /** unit, of the other point, from the points of the other scan: its error is independent of the
    * error of `normal` */
   Eigen::Vector3d other_normal;
-  double residual; ///< [m] distance to the partner along the normal
+  double residual;   ///< [m] distance to the partner along the normal
   double copies = 1; ///< number of equal pairs that stand for one
 };
 

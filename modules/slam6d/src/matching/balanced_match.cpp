@@ -131,10 +131,8 @@ matchBalanced(const IcpTarget& target,
     return;
   IcpOptions further = options;
   further.shrinking_stride = 1;
-  const IcpResult balanced = icp(target,
-                                 {&selection.points, &selection.normals},
-                                 found.T_target_source,
-                                 further);
+  const IcpResult balanced = icp(
+      target, {&selection.points, &selection.normals}, found.T_target_source, further);
   if (balanced.status != Status::kOk)
     return;
   found.T_target_source = balanced.T_target_source;

@@ -2,6 +2,7 @@
 // Corridors and tunnels without features: what surfaces measure is corrected, and the motion that
 // they leave open comes from the given poses.
 #include "corridor_drive.h"
+#include "matching/balanced_match.h"
 #include "matching/open_directions.h"
 #include "recovery/second_look.h"
 #include "registered_run.h"
@@ -167,6 +168,69 @@ TEST(OpenDirections, ARestInATunnelChangesNothing)
 {
   const DriftingRun run = tunnelRun(3);
   expectStraight(run, pcl6d::test::registered(run));
+}
+
+/** \return a model of the walls of a hall, and of floor in 16 places, 0.4 % of the points
+ * \param[in] patch [m] distance of the places */
+pcl6d::IcpModel
+hallModel(Random& random, double height, double patch)
+{
+  pcl6d::Points points;
+  for (int i = 0; i < 15000; ++i) {
+    const double along = random.uniform(-10, 10), side = i % 2 == 0 ? -10 : 10;
+    const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
+    const double up = random.uniform(-1, 3);
+    const Eigen::Vector3d p =
+        i % 4 < 2 ? Eigen::Vector3d(along, side, up) : Eigen::Vector3d(side, along, up);
+    points.push_back((p + 0.01 * noise).cast<float>());
+  }
+  for (int i = 0; i < 64; ++i)
+    points.push_back(Eigen::Vector3d(patch * (i % 4 - 1.5) + random.uniform(0, 0.4),
+                                     patch * (i / 4 % 4 - 1.5) + random.uniform(0, 0.4),
+                                     height + 0.01 * random.normal())
+                         .cast<float>());
+  pcl6d::IcpModel::Options options;
+  options.normals = true;
+  options.neighbours = 10;
+  options.num_threads = 1;
+  return {std::move(points), options};
+}
+
+/** \return what is left of a height of 8 cm after a match, and one with balanced points */
+double
+heightLeft(double patch, Status& status)
+{
+  Random random(13);
+  const pcl6d::IcpModel target = hallModel(random, -1.2, patch),
+                        source = hallModel(random, -1.12, patch);
+  pcl6d::IcpOptions options;
+  options.metric = pcl6d::Metric::kGicp;
+  options.facing_normals = true;
+  options.max_distance = 0.25;
+  options.max_iterations = 10;
+  options.num_threads = 1;
+  const pcl6d::IcpTarget parts = {target.part()};
+  IcpResult found =
+      pcl6d::icp(parts, source.source(), Eigen::Isometry3d::Identity(), options);
+  EXPECT_EQ(found.localizability->openDirections(), 1);
+  options.max_iterations = 100;
+  pcl6d::slam6d::matchBalanced(parts, source.source(), options, found);
+  status = found.status;
+  return found.T_target_source.translation().z() + 0.08;
+}
+
+TEST(MatchBalanced, FewPatchesOfAFloorFixTheHeight)
+{
+  Status status = Status::kDiverged;
+  EXPECT_NEAR(heightLeft(4, status), 0, 0.01);
+  EXPECT_EQ(status, Status::kOk);
+}
+
+TEST(MatchBalanced, OnePatchOfAFloorDoesNot)
+{
+  Status status = Status::kDiverged;
+  heightLeft(0, status);
+  EXPECT_NE(status, Status::kOk);
 }
 
 /** \return a map of five scans along x, all with given poses; scan 2 was found far off, and scan 3

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface_covariance.h"
+#include "surface_directions.h"
 
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/require.h>
-#include <pcl6d/registration/localizability.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
-using verification::jacobianOf;
+using verification::FitDirections;
 using verification::Matrix6;
 using verification::MeasuredTwice;
+using verification::PairExtent;
 using verification::PairGrids;
 using verification::SurfacePair;
 using verification::SurfacePairs;
@@ -19,65 +19,6 @@ using verification::SurfacePairs;
 namespace {
 /** Edge of the wide cubes, in cubes of the options: larger than most surfaces of a room. */
 constexpr double kWideCubes = 4;
-
-/** Collects pairs and counts the tested points. */
-class PairCollector {
-public:
-  explicit PairCollector(const SurfaceFitOptions& options) : options_(options) {}
-
-  /** Pairs points of a scan with surfaces of another scan. */
-  void
-  add(const VerifiedScan& of,
-      const VerifiedScan& in,
-      const Eigen::Isometry3d& T_in_of,
-      const Eigen::Isometry3d& T_first_in,
-      bool is_forward)
-  {
-    const Points& points = of.surfaces().points();
-    const Normals& normals = in.surfaces().normals();
-    const std::size_t stride =
-        std::max<std::size_t>(1, points.size() / options_.points);
-    const auto limit_sq =
-        static_cast<float>(options_.max_distance * options_.max_distance);
-    for (std::size_t i = stride / 2; i < points.size(); i += stride) {
-      const Eigen::Vector3d place = T_in_of * points[i].cast<double>();
-      const Neighbour near =
-          in.surfaces().tree().nearest(place.cast<float>(), limit_sq);
-      ++looked_at;
-      if (near.index < 0)
-        continue;
-      const auto k = static_cast<std::size_t>(near.index);
-      if (normals[k].isZero(0) ||
-          !faceEachOther(of.surfaces().normals()[i], normals[k], T_in_of))
-        continue;
-      const Eigen::Vector3d normal = normals[k].cast<double>();
-      const Eigen::Vector3d other =
-          T_in_of.linear() * of.surfaces().normals()[i].cast<double>();
-      const Eigen::Vector3d partner = in.surfaces().points()[k].cast<double>();
-      const double missing = normal.dot(partner - place);
-      // Opposite direction: the point of the first scan moves, the second stays.
-      pairs.push_back({T_first_in * (is_forward ? place : partner),
-                       T_first_in.linear() * normal,
-                       T_first_in.linear() * other,
-                       is_forward ? missing : -missing});
-    }
-  }
-
-  std::vector<SurfacePair> pairs;
-  std::size_t looked_at = 0;
-
-private:
-  /** \return whether the normals face the same way: the two faces of a wall are never paired. */
-  static bool
-  faceEachOther(const Eigen::Vector3f& n,
-                const Eigen::Vector3f& m,
-                const Eigen::Isometry3d& T)
-  {
-    return (T.linear() * n.cast<double>()).dot(m.cast<double>()) > 0;
-  }
-
-  const SurfaceFitOptions& options_;
-};
 
 /** \return the standard deviation of the residuals after the step, from their median:
  * edges have no influence */
@@ -93,14 +34,6 @@ usualResidual(const std::vector<double>& left)
   std::nth_element(sizes.begin(), middle, sizes.end());
   return kOfMedian * *middle;
 }
-
-/** Directions of motion, in the order of their eigenvalues, and how the pairs fix them. */
-struct FitDirections {
-  Matrix6 axes;      ///< columns: motions that move the pairs by 1 m (rms)
-  Twist mean_square; ///< of the cosines to the normals of one scan
-  Twist inverse;     ///< of the sum of squared cosines; 0: open
-  Twist step;        ///< along the axes
-};
 
 /** \return variances along the axes, of the error common to the pairs. Points are denser near the
  * scanner, so pairs of rough surfaces pull the scans together by sliding along surfaces oblique to
@@ -120,48 +53,6 @@ sharedVariances(const FitDirections& directions,
   return (size * directions.inverse.cwiseProduct(pull)).cwiseAbs2();
 }
 
-/** \return B^-1/2: from turns with a displacement of the pairs of 1 m (rms) to turns [rad], defined
- * by localizabilityOf(). With the spread of the pairs alone, a roll about the long axis of an
- * elongated scan would count as unobserved, because its levers are short. Turns about a line of
- * pairs use a thickness of a thousandth of its length. */
-Eigen::Matrix3d
-unitTurns(const std::vector<SurfacePair>& pairs, const SurfaceFit& fit)
-{
-  if (!(fit.spread > 0))
-    return Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const SurfacePair& pair : pairs) {
-    const Eigen::Vector3d lever = pair.place - fit.centroid;
-    scatter += lever * lever.transpose() / static_cast<double>(pairs.size());
-  }
-  const auto eigen = symmetricEigen<3>(
-      Eigen::Matrix3d(scatter.trace() * Eigen::Matrix3d::Identity() - scatter));
-  const Eigen::Vector3d squares =
-      eigen.values.cwiseMax(1e-6 * eigen.values(2)).cwiseSqrt().cwiseInverse();
-  return eigen.vectors * squares.asDiagonal() * eigen.vectors.transpose();
-}
-
-/** \return the directions of the pairs; an open direction takes no step */
-FitDirections
-directionsOf(const std::vector<SurfacePair>& pairs,
-             const Matrix6& H,
-             const Twist& b,
-             const SurfaceFit& fit)
-{
-  Matrix6 unit = Matrix6::Identity(); // turns as motions of the pairs
-  unit.bottomRightCorner<3, 3>() = unitTurns(pairs, fit);
-  const auto count = static_cast<double>(pairs.size());
-  const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
-  FitDirections directions;
-  directions.axes = unit * eigen.vectors;
-  directions.mean_square = eigen.values;
-  for (int k = 0; k < 6; ++k)
-    directions.inverse(k) =
-        eigen.values(k) < Localizability::kOpen ? 0 : 1 / (eigen.values(k) * count);
-  directions.step = directions.inverse.cwiseProduct(directions.axes.transpose() * b);
-  return directions;
-}
-
 /** \return the terms of the pairs times their residuals */
 std::vector<Twist>
 gradientsOf(std::vector<Twist> terms, const std::vector<double>& residuals)
@@ -169,6 +60,18 @@ gradientsOf(std::vector<Twist> terms, const std::vector<double>& residuals)
   for (std::size_t i = 0; i < terms.size(); ++i)
     terms[i] *= residuals[i];
   return terms;
+}
+
+/** \return what copies of pairs add to the variance of a sum of equal terms, in units of the
+ * squared cosines: n copies have n times the variance of n pairs */
+Twist
+ofCopies(const std::vector<SurfacePair>& pairs, const MeasuredTwice& measured)
+{
+  Twist sum = Twist::Zero();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].copies > 1)
+      sum += (pairs[i].copies - 1) * measured.one[i].cwiseAbs2();
+  return sum;
 }
 
 /** Fills both covariances. */
@@ -188,8 +91,8 @@ addCovariances(const std::vector<SurfacePair>& pairs,
     left.push_back(pairs[i].residual - measured.one[i].dot(directions.step));
   const auto count = static_cast<double>(pairs.size());
   // Few cubes may show no error in a direction: take a tenth of the independent error.
-  const Twist least =
-      0.1 * fit.residual * fit.residual * count * directions.mean_square;
+  const Twist least = 0.1 * fit.residual * fit.residual *
+                      (count * directions.mean_square + ofCopies(pairs, measured));
   Twist open = Twist::Zero(),
         weight; // the uncertainty of an open direction: the spread
   for (int k = 0; k < 6; ++k) {
@@ -217,27 +120,6 @@ addCovariances(const std::vector<SurfacePair>& pairs,
   fit.pose_covariance = V * C * V.transpose();
 }
 
-/** Solves for the step, and gives the covariances of the pose. */
-void
-solve(const std::vector<SurfacePair>& pairs,
-      double voxel,
-      const SurfaceFitOptions& options,
-      SurfaceFit& fit)
-{
-  Matrix6 H = Matrix6::Zero();
-  Twist b = Twist::Zero();
-  for (const SurfacePair& pair : pairs) {
-    const Twist j = jacobianOf(pair.place, pair.normal, fit.centroid);
-    H += j * j.transpose();
-    b += pair.residual * j;
-  }
-  const FitDirections directions = directionsOf(pairs, H, b, fit);
-  fit.open_directions = static_cast<int>((directions.inverse.array() == 0).count());
-  fit.step = directions.axes * directions.step;
-  if (options.covariance)
-    addCovariances(
-        pairs, options.cube_voxels * voxel, options.shared_error, directions, fit);
-}
 } // namespace
 
 void
@@ -292,40 +174,29 @@ SurfaceFit::mahalanobisSq() const
   return sum;
 }
 
-SurfacePairs
-verification::pairSurfaces(const VerifiedScan& first,
-                           const VerifiedScan& second,
-                           const Eigen::Isometry3d& T_first_second,
-                           const SurfaceFitOptions& options)
-{
-  options.validate();
-  PairCollector found(options);
-  found.add(second, first, T_first_second, Eigen::Isometry3d::Identity(), true);
-  found.add(first, second, T_first_second.inverse(), T_first_second, false);
-  return {
-      std::move(found.pairs), found.looked_at, std::max(first.voxel(), second.voxel())};
-}
-
 SurfaceFit
 verification::fitOf(const SurfacePairs& found, const SurfaceFitOptions& options)
 {
   SurfaceFit fit;
-  fit.pairs = found.pairs.size();
+  fit.pairs = found.evenly;
   if (found.looked_at > 0)
     fit.overlap = static_cast<double>(fit.pairs) / static_cast<double>(found.looked_at);
   constexpr std::size_t kLeastPairs = 12; // two for each direction
   if (fit.pairs < kLeastPairs)
     return fit;
-  for (const SurfacePair& pair : found.pairs)
-    fit.centroid += pair.place / static_cast<double>(fit.pairs);
-  double residual_sq = 0, spread_sq = 0;
-  for (const SurfacePair& pair : found.pairs) {
-    residual_sq += pair.residual * pair.residual;
-    spread_sq += (pair.place - fit.centroid).squaredNorm();
-  }
-  fit.residual = std::sqrt(residual_sq / static_cast<double>(fit.pairs));
-  fit.spread = std::sqrt(spread_sq / static_cast<double>(fit.pairs));
-  solve(found.pairs, found.voxel, options, fit);
+  const PairExtent extent = extentOf(found.pairs);
+  fit.centroid = extent.centroid;
+  fit.spread = extent.spread;
+  fit.residual = extent.residual;
+  const FitDirections directions = directionsOf(found.pairs, extent);
+  fit.open_directions = directions.open();
+  fit.step = directions.axes * directions.step;
+  if (options.covariance)
+    addCovariances(found.pairs,
+                   options.cube_voxels * found.voxel,
+                   options.shared_error,
+                   directions,
+                   fit);
   return fit;
 }
 

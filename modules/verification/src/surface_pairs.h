@@ -17,13 +17,17 @@ struct SurfacePair {
   /** unit, of the other point, from the points of the other scan: its error is independent of the
    * error of `normal` */
   Eigen::Vector3d other_normal;
-  double residual; ///< [m] distance to the partner along the normal
+  double residual;   ///< [m] distance to the partner along the normal
+  double copies = 1; ///< number of equal pairs that stand for one
 };
 
 /** \brief The result of pairSurfaces(). */
 struct SurfacePairs {
+  /** first those of an even selection of the points, then, where these leave a motion open, those
+   * of all surfaces that face the motion */
   std::vector<SurfacePair> pairs;
-  std::size_t looked_at = 0; ///< points, of both scans
+  std::size_t evenly = 0;    ///< number of the pairs of the even selection
+  std::size_t looked_at = 0; ///< points of the even selection, of both scans
   double voxel = 0;          ///< [m] of the coarser scan
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/agreement.h"
+#include "matching/balanced_match.h"
 #include "matching/open_directions.h"
 #include "matching/scan_matcher.h"
 
@@ -188,6 +189,7 @@ ScanMatcher::matchFrom(const StartingPose& start,
   const IcpTarget target = metascan_.around(origin);
   IcpResult found =
       icp(target, points.source(), guess, icpOptions(points.points().size()));
+  matchBalanced(target, points.source(), icpOptions(points.points().size()), found);
   const bool is_held = holds_open_directions_ && !isWithoutPrior(start.from) &&
                        holdOpenDirections(predicted, found);
   scan.status = found.status;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace pcl6d::odometry {
 
@@ -40,6 +41,7 @@ constexpr double kEndShare = 0.05;
 
 /** A point, the surface at its position, and the distance. */
 struct Pair {
+  std::optional<VoxelKey> voxel; ///< the smallest around the point
   const MapSurface* surface = nullptr;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();    ///< [m] from the centre
   Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< [m] from the surface
@@ -151,17 +153,21 @@ private:
     parallelBlocks(
         points_.size(), kPointsPerBlock, options_.num_threads, [&](const Block& block) {
           for (std::size_t i = block.begin; i < block.end; ++i)
-            pairs_[i] = pairOf(motion.place(points_[i]));
+            pair(motion.place(points_[i]), pairs_[i]);
         });
   }
 
-  Pair
-  pairOf(const Eigen::Vector3d& place) const
+  /** Most points stay in their voxel from one iteration to the next. */
+  void
+  pair(const Eigen::Vector3d& place, Pair& pair) const
   {
-    Pair pair;
-    pair.surface = map_.surfaceAt(place);
+    const std::optional<VoxelKey> voxel = map_.voxelAt(place);
+    if (voxel != pair.voxel) {
+      pair.voxel = voxel;
+      pair.surface = voxel ? map_.surfaceIn(*voxel) : nullptr;
+    }
     if (!pair.surface)
-      return pair;
+      return;
     pair.arm = place - prior_.centre;
     pair.offset = place - pair.surface->mean;
     pair.deviation =
@@ -169,7 +175,6 @@ private:
     pair.distance = pair.surface->shape == VoxelShape::kPlane
                         ? pair.surface->normal.dot(pair.offset)
                         : pair.offset.norm() / std::sqrt(3.0);
-    return pair;
   }
 
   /** \return whether the pairs suffice */

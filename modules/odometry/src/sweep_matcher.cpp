@@ -19,8 +19,6 @@
 namespace pcl6d::odometry {
 
 namespace {
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 constexpr std::size_t kPointsPerBlock = 512;
 
@@ -63,7 +61,7 @@ struct Pair {
   }
 };
 
-/** Sums of the normal equations, split by the shares of begin and end. */
+/** Sums of the normal equations of a part of the sweep, split by the shares of begin and end. */
 struct Sums {
   Matrix6 begin = Matrix6::Zero(), mixed = Matrix6::Zero(), end = Matrix6::Zero();
   Twist begin_side = Twist::Zero(), end_side = Twist::Zero();
@@ -98,6 +96,17 @@ struct Sums {
   }
 };
 
+/** One for each part of the sweep. */
+using PartSums = std::vector<Sums>;
+
+PartSums
+added(PartSums a, const PartSums& b)
+{
+  for (std::size_t part = 0; part < a.size(); ++part)
+    a[part] = a[part] + b[part];
+  return a;
+}
+
 Matrix6
 full(const Matrix6& lower)
 {
@@ -111,14 +120,19 @@ public:
         const SweepPoints& points,
         const SweepPrior& prior,
         const SweepMatchOptions& options)
-  : map_(map), points_(points), prior_(prior), options_(options), pairs_(points.size())
+  : map_(map)
+  , points_(points)
+  , prior_(prior)
+  , options_(options)
+  , num_parts_(prior.uneven ? kSweepParts : 1)
+  , pairs_(points.size())
   {}
 
   SweepMatch
   run()
   {
     SweepMatch match;
-    match.motion = prior_.motion;
+    match.motion = prior_.uneven.value_or(prior_.motion);
     double scale = options_.gate;
     bool is_at_rest = false;
     while (match.iterations < options_.max_iterations) {
@@ -126,18 +140,15 @@ public:
       findPairs(match.motion);
       if (!measureDeviation(match))
         return match;
-      const Vector12 step = solve(match, scale);
+      const Eigen::VectorXd step = solve(match, scale);
       if (!step.allFinite()) {
         match.status = Status::kDiverged;
         return match;
       }
       move(step, match.motion);
       scale *= kDecay;
-      const double moved =
-          std::max(step.head<3>().norm(), step.segment<3>(6).norm()) +
-          reach_ * std::max(step.segment<3>(3).norm(), step.tail<3>().norm());
       is_at_rest = scale < kKernelDeviations * options_.noise &&
-                   moved < kEndShare * options_.noise;
+                   movedBy(step) < kEndShare * options_.noise;
       if (is_at_rest)
         break;
     }
@@ -197,10 +208,22 @@ private:
     return true;
   }
 
-  Sums
+  /** \return [m] largest movement of the typical point */
+  double
+  movedBy(const Eigen::VectorXd& step) const
+  {
+    double translation = 0, rotation = 0;
+    for (Eigen::Index at = 0; at < step.size(); at += 6) {
+      translation = std::max(translation, step.segment<3>(at).norm());
+      rotation = std::max(rotation, step.segment<3>(at + 3).norm());
+    }
+    return translation + reach_ * rotation;
+  }
+
+  PartSums
   sumsOf(const Block& block, double deviation, double scale) const
   {
-    Sums sums;
+    PartSums sums(num_parts_);
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const Pair& pair = pairs_[i];
       if (!pair.surface)
@@ -210,48 +233,71 @@ private:
       const double kernel =
           limit * limit / (limit * limit + pair.distance * pair.distance);
       const double weight = kernel * kernel / (spread * spread * options_.correlation);
+      const SweepPart at(points_[i].share, num_parts_);
       Twist row;
       if (pair.surface->shape == VoxelShape::kPlane) {
         row << pair.surface->normal, pair.arm.cross(pair.surface->normal);
-        sums.add(row, pair.distance, weight, points_[i].share);
+        sums[at.part].add(row, pair.distance, weight, at.share);
         continue;
       }
       for (int axis = 0; axis < 3; ++axis) {
         const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
         row << unit, pair.arm.cross(unit);
-        sums.add(row, pair.offset(axis), weight, points_[i].share);
+        sums[at.part].add(row, pair.offset(axis), weight, at.share);
       }
     }
     return sums;
   }
 
-  /** \return the motions of begin and end */
-  Vector12
+  /** \return the motions of begin and end, with those between the parts in between */
+  Eigen::VectorXd
   solve(const SweepMatch& match, double scale)
   {
-    std::vector<Sums> partial((points_.size() + kPointsPerBlock - 1) / kPointsPerBlock);
+    std::vector<PartSums> partial((points_.size() + kPointsPerBlock - 1) /
+                                  kPointsPerBlock);
     parallelBlocks(
         points_.size(), kPointsPerBlock, options_.num_threads, [&](const Block& block) {
           partial[block.index] = sumsOf(block, match.deviation, scale);
         });
-    data_ = mergeTree(std::move(partial), std::plus<Sums>());
-    normal_.topLeftCorner<6, 6>() = full(data_.begin);
-    normal_.bottomLeftCorner<6, 6>() = full(data_.mixed);
-    normal_.topRightCorner<6, 6>() = full(data_.mixed);
-    normal_.bottomRightCorner<6, 6>() = full(data_.end);
-    Vector12 side;
-    side << data_.begin_side, data_.end_side;
-    if (prior_.holds_open) {
-      const Matrix6 fixed = fixedPart(match.deviation);
-      for (int r = 0; r < 12; r += 6) {
-        side.segment<6>(r) = (fixed.transpose() * side.segment<6>(r)).eval();
-        for (int c = 0; c < 12; c += 6)
-          normal_.block<6, 6>(r, c) =
-              (fixed.transpose() * normal_.block<6, 6>(r, c) * fixed).eval();
-      }
-    }
+    Eigen::VectorXd side = setData(mergeTree(std::move(partial), added));
+    if (prior_.holds_open)
+      holdOpen(match.deviation, side);
     addPrior(match.motion, side);
+    if (num_parts_ > 1)
+      addSteadiness(match.motion, side);
     return normal_.ldlt().solve(-side);
+  }
+
+  /** Sets the normal equations. \return the side */
+  Eigen::VectorXd
+  setData(const PartSums& data)
+  {
+    const auto size = static_cast<Eigen::Index>(6 * (data.size() + 1));
+    normal_.setZero(size, size);
+    Eigen::VectorXd side = Eigen::VectorXd::Zero(size);
+    Eigen::Index at = 0;
+    for (const Sums& part : data) {
+      normal_.block<6, 6>(at, at) += full(part.begin);
+      normal_.block<6, 6>(at + 6, at) += full(part.mixed);
+      normal_.block<6, 6>(at, at + 6) += full(part.mixed);
+      normal_.block<6, 6>(at + 6, at + 6) += full(part.end);
+      side.segment<6>(at) += part.begin_side;
+      side.segment<6>(at + 6) += part.end_side;
+      at += 6;
+    }
+    return side;
+  }
+
+  void
+  holdOpen(double deviation, Eigen::VectorXd& side)
+  {
+    const Matrix6 fixed = fixedPart(deviation);
+    for (Eigen::Index r = 0; r < side.size(); r += 6) {
+      side.segment<6>(r) = (fixed.transpose() * side.segment<6>(r)).eval();
+      for (Eigen::Index c = 0; c < side.size(); c += 6)
+        normal_.block<6, 6>(r, c) =
+            (fixed.transpose() * normal_.block<6, 6>(r, c) * fixed).eval();
+    }
   }
 
   /** \return the motion from one pose to another in world axes, about the centre */
@@ -266,8 +312,19 @@ private:
     return error;
   }
 
+  /** \return the information of a motion with the deviations of the velocity, times a factor */
+  Matrix6
+  velocityInformation(double factor) const
+  {
+    const double t = factor * prior_.translation, r = factor * prior_.rotation;
+    Matrix6 information = Matrix6::Zero();
+    information.diagonal() << Eigen::Vector3d::Constant(1 / (t * t)),
+        Eigen::Vector3d::Constant(1 / (r * r));
+    return information;
+  }
+
   void
-  addPrior(const SweepMotion& motion, Vector12& side)
+  addPrior(const SweepMotion& motion, Eigen::VectorXd& side)
   {
     const Matrix6& begin = prior_.begin_information;
     const Twist off_begin = errorOf(motion.begin, prior_.motion.begin);
@@ -275,10 +332,7 @@ private:
     side.head<6>() += begin * off_begin;
     const Twist off_velocity =
         errorOf(motion.end(), motion.begin * motionFromTwist(prior_.motion.velocity));
-    Matrix6 steady = Matrix6::Zero();
-    steady.diagonal() << Eigen::Vector3d::Constant(
-        1 / (prior_.translation * prior_.translation)),
-        Eigen::Vector3d::Constant(1 / (prior_.rotation * prior_.rotation));
+    const Matrix6 steady = velocityInformation(1);
     // The centre is near the scanner: a change of its velocity is a change about the centre.
     normal_.topLeftCorner<6, 6>() += steady;
     normal_.bottomRightCorner<6, 6>() += steady;
@@ -286,6 +340,29 @@ private:
     normal_.bottomLeftCorner<6, 6>() -= steady;
     side.head<6>() -= steady * off_velocity;
     side.tail<6>() += steady * off_velocity;
+  }
+
+  /** The velocity changes as a random walk from part to part; where it does, the motion bends. */
+  void
+  addSteadiness(const SweepMotion& motion, Eigen::VectorXd& side)
+  {
+    const auto parts = static_cast<double>(num_parts_);
+    const Matrix6 steady = velocityInformation(1 / (parts * std::sqrt(parts)));
+    constexpr std::array<double, 3> kBend = {1, -2, 1};
+    for (std::size_t part = 0; part + 1 < num_parts_; ++part) {
+      Twist bend = Twist::Zero();
+      if (!motion.offsets.empty())
+        bend = motion.offsets[part] - 2 * motion.offsets[part + 1] +
+               motion.offsets[part + 2];
+      bend.head<3>() = motion.begin.linear() * Eigen::Vector3d(bend.head<3>());
+      bend.tail<3>() = motion.begin.linear() * Eigen::Vector3d(bend.tail<3>());
+      const auto at = static_cast<Eigen::Index>(6 * part);
+      for (int r = 0; r < 3; ++r) {
+        side.segment<6>(at + 6 * r) += kBend[r] * steady * bend;
+        for (int c = 0; c < 3; ++c)
+          normal_.block<6, 6>(at + 6 * r, at + 6 * c) += kBend[r] * kBend[c] * steady;
+      }
+    }
   }
 
   Eigen::Isometry3d
@@ -296,13 +373,29 @@ private:
   }
 
   void
-  move(const Vector12& step, SweepMotion& motion) const
+  move(const Eigen::VectorXd& step, SweepMotion& motion) const
   {
+    std::vector<Eigen::Isometry3d> between;
+    const auto shareOf = [this](std::size_t part) {
+      return static_cast<double>(part) / static_cast<double>(num_parts_);
+    };
+    for (std::size_t part = 1; part < num_parts_; ++part)
+      between.push_back(
+          moved(motion.begin * motionFromTwist(motion.twistAt(shareOf(part))),
+                step.segment<6>(static_cast<Eigen::Index>(6 * part))));
     const Eigen::Isometry3d end = moved(motion.end(), step.tail<6>());
     motion.begin = moved(motion.begin, step.head<6>());
     const Twist velocity = twistFromMotion(motion.begin.inverse() * end);
     motion.change += velocity - motion.velocity;
     motion.velocity = velocity;
+    motion.offsets.clear();
+    if (between.empty())
+      return;
+    std::vector<Twist> offsets(num_parts_ + 1, Twist::Zero());
+    for (std::size_t part = 1; part < num_parts_; ++part)
+      offsets[part] = twistFromMotion(motion.begin.inverse() * between[part - 1]) -
+                      motion.twistAt(shareOf(part));
+    motion.offsets = std::move(offsets);
   }
 
   void
@@ -324,7 +417,8 @@ private:
     const auto last = std::unique(surfaces.begin(), surfaces.end());
     match.correlation =
         std::max(1.0, count / static_cast<double>(last - surfaces.begin()));
-    const Matrix12 covariance = normal_.ldlt().solve(Matrix12::Identity());
+    const Eigen::MatrixXd covariance =
+        normal_.ldlt().solve(Eigen::MatrixXd::Identity(normal_.rows(), normal_.cols()));
     match.begin_covariance = covariance.topLeftCorner<6, 6>();
     match.end_information = inverted<6>(Matrix6(covariance.bottomRightCorner<6, 6>()));
     match.free_directions = localizability(match.deviation).openDirections();
@@ -374,10 +468,10 @@ private:
   const SweepPoints& points_;
   const SweepPrior& prior_;
   const SweepMatchOptions& options_;
+  const std::size_t num_parts_; ///< of the sweep, each with a velocity of its own
   std::vector<Pair> pairs_;
   double reach_ = 1; ///< [m] rms distance of the points from the centre
-  Sums data_;
-  Matrix12 normal_ = Matrix12::Zero();
+  Eigen::MatrixXd normal_;
 };
 } // namespace
 

@@ -85,6 +85,10 @@ private:
     return 0.5 * std::ldexp(map_->options().voxel, map_->options().levels - 1);
   }
   void
+  tryUneven(const Current& now,
+            odometry::SweepPrior prior,
+            odometry::SweepMatch& best) const;
+  void
   tryFurther(const Current& now,
              const odometry::SweepPrior& prior,
              odometry::SweepPrior loose,

@@ -224,8 +224,11 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   };
   SweepMatch best = gated(prior);
   SweepPrior wider = prior;
-  for (int round = 0; round < kWidenings && widen(best, wider); ++round)
+  int widenings = 0;
+  for (; widenings < kWidenings && widen(best, wider); ++widenings)
     best = gated(wider);
+  if (widenings > 0)
+    tryUneven(now, wider, best);
   const bool is_usual = isMatched(best) && deviationOf(best) <= kSuspicious;
   if (is_usual && best.fit >= kRetryBelow * usual_fit_ &&
       (best.overlap >= kRetryBelow * usual_overlap_ || hasPause(now)))
@@ -244,11 +247,29 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   if (prior.goes_on)
     loose.motion.velocity.setZero();
   attempt(loose);
+  tryUneven(now, wider, best);
   const bool is_bend = best.distortion > voxel; // shows new parts, too
   if (!isMatched(best) ||
       (!is_bend && (!hasPause(now) || deviationOf(best) > kSuspicious)))
     tryFurther(now, prior, loose, best);
   return best;
+}
+
+/** Matches with a velocity that changes suddenly within the sweep: a robot that turns on the spot,
+ * or a corner of a simulated way. */
+void
+SweepTracker::Track::tryUneven(const Current& now,
+                               SweepPrior prior,
+                               SweepMatch& best) const
+{
+  if (!now.is_timed || best.status == Status::kTooFewPairs)
+    return;
+  widen(best, prior);
+  prior.uneven = best.motion;
+  const SweepMatch found = match(
+      now, prior, std::clamp(prior.gate, 2 * map_->options().voxel, widestGate()));
+  if (isBetter(found, best, true))
+    best = found;
 }
 
 /** Matches further along the way, where more of the sweep is seen: sweeps may be missing without a

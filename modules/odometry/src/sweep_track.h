@@ -86,7 +86,7 @@ private:
   }
   void
   tryUneven(const Current& now,
-            odometry::SweepPrior prior,
+            const odometry::SweepPrior& prior,
             odometry::SweepMatch& best) const;
   void
   tryFurther(const Current& now,

@@ -224,11 +224,20 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   };
   SweepMatch best = gated(prior);
   SweepPrior wider = prior;
-  int widenings = 0;
-  for (; widenings < kWidenings && widen(best, wider); ++widenings)
-    best = gated(wider);
-  if (widenings > 0)
-    tryUneven(now, wider, best);
+  bool is_expected = true;
+  for (int round = 0; round < kWidenings; ++round) {
+    SweepPrior next = wider;
+    if (!widen(best, next))
+      break;
+    is_expected = false;
+    const SweepMatch found = gated(next);
+    if (found.overlap < best.overlap) // a false match would widen the prior without end
+      break;
+    best = found;
+    wider = next;
+  }
+  if (!is_expected)
+    tryUneven(now, prior, best);
   const bool is_usual = isMatched(best) && deviationOf(best) <= kSuspicious;
   if (is_usual && best.fit >= kRetryBelow * usual_fit_ &&
       (best.overlap >= kRetryBelow * usual_overlap_ || hasPause(now)))
@@ -247,7 +256,7 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   if (prior.goes_on)
     loose.motion.velocity.setZero();
   attempt(loose);
-  tryUneven(now, wider, best);
+  tryUneven(now, prior, best);
   const bool is_bend = best.distortion > voxel; // shows new parts, too
   if (!isMatched(best) ||
       (!is_bend && (!hasPause(now) || deviationOf(best) > kSuspicious)))
@@ -256,20 +265,25 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
 }
 
 /** Matches with a velocity that changes suddenly within the sweep: a robot that turns on the spot,
- * or a corner of a simulated way. */
+ * or a corner of a simulated way. Starts from the best match, near where the change comes early, and
+ * from the expected motion, near where it comes late. */
 void
 SweepTracker::Track::tryUneven(const Current& now,
-                               SweepPrior prior,
+                               const SweepPrior& prior,
                                SweepMatch& best) const
 {
   if (!now.is_timed || best.status == Status::kTooFewPairs)
     return;
-  widen(best, prior);
-  prior.uneven = best.motion;
-  const SweepMatch found = match(
-      now, prior, std::clamp(prior.gate, 2 * map_->options().voxel, widestGate()));
-  if (isBetter(found, best, true))
-    best = found;
+  SweepPrior wider = prior;
+  widen(best, wider);
+  const double gate =
+      std::clamp(wider.gate, 2 * map_->options().voxel, widestGate());
+  for (const SweepMotion& start : {best.motion, prior.motion}) {
+    wider.uneven = start;
+    const SweepMatch found = match(now, wider, gate);
+    if (isBetter(found, best, true))
+      best = found;
+  }
 }
 
 /** Matches further along the way, where more of the sweep is seen: sweeps may be missing without a

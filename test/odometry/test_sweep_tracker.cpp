@@ -83,8 +83,7 @@ TEST(SweepTracker, FollowsATurnThatBeginsWithinASweep)
   pcl6d::SweepTracker tracker;
   Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 30; ++i) {
-    const TrackedSweep found =
-        tracker.track(corridor.sweepAlong(pose, kSweepTime * i));
+    const TrackedSweep found = tracker.track(corridor.sweepAlong(pose, kSweepTime * i));
     const Eigen::Isometry3d truth =
         pose(kSweepTime * (i - 1)).inverse() * pose(kSweepTime * i);
     const auto error = distanceBetween(truth, before.inverse() * found.T_world_sweep);

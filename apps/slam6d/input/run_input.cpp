@@ -77,9 +77,7 @@ openInput(const Settings& settings,
 }
 
 RunScans
-openScans(const RunInput& input,
-          const Settings& settings,
-          const EarlierRuns& earlier)
+openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier)
 {
   const ScanFolder& folder = input.folder;
   RunScans scans(folder);

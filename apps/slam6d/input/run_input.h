@@ -40,9 +40,7 @@ openInput(const Settings& settings,
 
 /** \return the scans for registration; keeps a reference to the folder of the input */
 RunScans
-openScans(const RunInput& input,
-          const Settings& settings,
-          const EarlierRuns& earlier);
+openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier);
 
 /** \return the settings with values derived from the folder and earlier runs */
 Settings

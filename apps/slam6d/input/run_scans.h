@@ -105,7 +105,7 @@ private:
 
   const ScanFolder& folder_;
   std::optional<MotionCorrection> correction_; ///< along the initial poses
-  std::vector<Trajectory> paths_; ///< see deskew()
+  std::vector<Trajectory> paths_;              ///< see deskew()
   bool estimates_motion_ = false;
   std::optional<MotionCorrection>
       clock_;                 ///< of estimated motion: the stamps of the scans

@@ -117,8 +117,7 @@ LocalMap::add(const std::vector<Eigen::Vector3d>& points)
     for (const Fresh& sums : fresh) {
       if (l + 1 < levels_.size()) {
         Level& next = levels_[l + 1];
-        const VoxelKey key = level.voxels[sums.number].key,
-                       around = coarserVoxel(key);
+        const VoxelKey key = level.voxels[sums.number].key, around = coarserVoxel(key);
         shift(sums.sums,
               centreOf(key, level.edge) - centreOf(around, next.edge),
               freshSums(around, next, above));

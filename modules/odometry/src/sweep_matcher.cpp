@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_equations.h"
 #include "sweep_matcher.h"
 
 #include <pcl6d/common/decompositions.h>
@@ -60,58 +61,6 @@ struct Pair {
            normalised() <= kKernelDeviations * std::max(1.0, usual);
   }
 };
-
-/** Sums of the normal equations of a part of the sweep, split by the shares of begin and end. */
-struct Sums {
-  Matrix6 begin = Matrix6::Zero(), mixed = Matrix6::Zero(), end = Matrix6::Zero();
-  Twist begin_side = Twist::Zero(), end_side = Twist::Zero();
-
-  /** \param[in] row d distance / d motion \param[in] weight [1/m^2] */
-  void
-  add(const Twist& row, double distance, double weight, double share)
-  {
-    const double rest = 1 - share;
-    const double bb = weight * rest * rest, be = weight * rest * share,
-                 ee = weight * share * share;
-    for (int c = 0; c < 6; ++c)
-      for (int r = c; r < 6; ++r) {
-        const double product = row(r) * row(c);
-        begin(r, c) += bb * product;
-        mixed(r, c) += be * product;
-        end(r, c) += ee * product;
-      }
-    begin_side += (weight * rest * distance) * row;
-    end_side += (weight * share * distance) * row;
-  }
-
-  friend Sums
-  operator+(Sums a, const Sums& b)
-  {
-    a.begin += b.begin;
-    a.mixed += b.mixed;
-    a.end += b.end;
-    a.begin_side += b.begin_side;
-    a.end_side += b.end_side;
-    return a;
-  }
-};
-
-/** One for each part of the sweep. */
-using PartSums = std::vector<Sums>;
-
-PartSums
-added(PartSums a, const PartSums& b)
-{
-  for (std::size_t part = 0; part < a.size(); ++part)
-    a[part] = a[part] + b[part];
-  return a;
-}
-
-Matrix6
-full(const Matrix6& lower)
-{
-  return lower.selfadjointView<Eigen::Lower>();
-}
 
 /** State of the iterations of a match. */
 class Match {
@@ -220,10 +169,10 @@ private:
     return translation + reach_ * rotation;
   }
 
-  PartSums
+  std::vector<PartSums>
   sumsOf(const Block& block, double deviation, double scale) const
   {
-    PartSums sums(num_parts_);
+    std::vector<PartSums> sums(num_parts_);
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const Pair& pair = pairs_[i];
       if (!pair.surface)
@@ -253,116 +202,18 @@ private:
   Eigen::VectorXd
   solve(const SweepMatch& match, double scale)
   {
-    std::vector<PartSums> partial((points_.size() + kPointsPerBlock - 1) /
-                                  kPointsPerBlock);
+    std::vector<std::vector<PartSums>> partial((points_.size() + kPointsPerBlock - 1) /
+                                               kPointsPerBlock);
     parallelBlocks(
         points_.size(), kPointsPerBlock, options_.num_threads, [&](const Block& block) {
           partial[block.index] = sumsOf(block, match.deviation, scale);
         });
-    Eigen::VectorXd side = setData(mergeTree(std::move(partial), added));
+    SweepEquations equations(mergeTree(std::move(partial), added));
     if (prior_.holds_open)
-      holdOpen(match.deviation, side);
-    addPrior(match.motion, side);
-    if (num_parts_ > 1)
-      addSteadiness(match.motion, side);
-    return normal_.ldlt().solve(-side);
-  }
-
-  /** Sets the normal equations. \return the side */
-  Eigen::VectorXd
-  setData(const PartSums& data)
-  {
-    const auto size = static_cast<Eigen::Index>(6 * (data.size() + 1));
-    normal_.setZero(size, size);
-    Eigen::VectorXd side = Eigen::VectorXd::Zero(size);
-    Eigen::Index at = 0;
-    for (const Sums& part : data) {
-      normal_.block<6, 6>(at, at) += full(part.begin);
-      normal_.block<6, 6>(at + 6, at) += full(part.mixed);
-      normal_.block<6, 6>(at, at + 6) += full(part.mixed);
-      normal_.block<6, 6>(at + 6, at + 6) += full(part.end);
-      side.segment<6>(at) += part.begin_side;
-      side.segment<6>(at + 6) += part.end_side;
-      at += 6;
-    }
-    return side;
-  }
-
-  void
-  holdOpen(double deviation, Eigen::VectorXd& side)
-  {
-    const Matrix6 fixed = fixedPart(deviation);
-    for (Eigen::Index r = 0; r < side.size(); r += 6) {
-      side.segment<6>(r) = (fixed.transpose() * side.segment<6>(r)).eval();
-      for (Eigen::Index c = 0; c < side.size(); c += 6)
-        normal_.block<6, 6>(r, c) =
-            (fixed.transpose() * normal_.block<6, 6>(r, c) * fixed).eval();
-    }
-  }
-
-  /** \return the motion from one pose to another in world axes, about the centre */
-  Twist
-  errorOf(const Eigen::Isometry3d& found, const Eigen::Isometry3d& expected) const
-  {
-    Twist error;
-    error.tail<3>() = rotationVector(found.linear() * expected.linear().transpose());
-    const Eigen::Vector3d arm = expected.translation() - prior_.centre;
-    error.head<3>() = found.translation() - expected.translation() -
-                      Eigen::Vector3d(error.tail<3>()).cross(arm);
-    return error;
-  }
-
-  /** \return the information of a motion with the deviations of the velocity, times a factor */
-  Matrix6
-  velocityInformation(double factor) const
-  {
-    const double t = factor * prior_.translation, r = factor * prior_.rotation;
-    Matrix6 information = Matrix6::Zero();
-    information.diagonal() << Eigen::Vector3d::Constant(1 / (t * t)),
-        Eigen::Vector3d::Constant(1 / (r * r));
-    return information;
-  }
-
-  void
-  addPrior(const SweepMotion& motion, Eigen::VectorXd& side)
-  {
-    const Matrix6& begin = prior_.begin_information;
-    const Twist off_begin = errorOf(motion.begin, prior_.motion.begin);
-    normal_.topLeftCorner<6, 6>() += begin;
-    side.head<6>() += begin * off_begin;
-    const Twist off_velocity =
-        errorOf(motion.end(), motion.begin * motionFromTwist(prior_.motion.velocity));
-    const Matrix6 steady = velocityInformation(1);
-    // The centre is near the scanner: a change of its velocity is a change about the centre.
-    normal_.topLeftCorner<6, 6>() += steady;
-    normal_.bottomRightCorner<6, 6>() += steady;
-    normal_.topRightCorner<6, 6>() -= steady;
-    normal_.bottomLeftCorner<6, 6>() -= steady;
-    side.head<6>() -= steady * off_velocity;
-    side.tail<6>() += steady * off_velocity;
-  }
-
-  /** The velocity changes as a random walk from part to part; where it does, the motion bends. */
-  void
-  addSteadiness(const SweepMotion& motion, Eigen::VectorXd& side)
-  {
-    const auto parts = static_cast<double>(num_parts_);
-    const Matrix6 steady = velocityInformation(1 / (parts * std::sqrt(parts)));
-    constexpr std::array<double, 3> kBend = {1, -2, 1};
-    for (std::size_t part = 0; part + 1 < num_parts_; ++part) {
-      Twist bend = Twist::Zero();
-      if (!motion.offsets.empty())
-        bend = motion.offsets[part] - 2 * motion.offsets[part + 1] +
-               motion.offsets[part + 2];
-      bend.head<3>() = motion.begin.linear() * Eigen::Vector3d(bend.head<3>());
-      bend.tail<3>() = motion.begin.linear() * Eigen::Vector3d(bend.tail<3>());
-      const auto at = static_cast<Eigen::Index>(6 * part);
-      for (int r = 0; r < 3; ++r) {
-        side.segment<6>(at + 6 * r) += kBend[r] * steady * bend;
-        for (int c = 0; c < 3; ++c)
-          normal_.block<6, 6>(at + 6 * r, at + 6 * c) += kBend[r] * kBend[c] * steady;
-      }
-    }
+      equations.project(fixedPart(match.deviation));
+    equations.add(prior_, match.motion);
+    normal_ = equations.normal();
+    return equations.solve();
   }
 
   Eigen::Isometry3d

@@ -75,6 +75,8 @@ private:
   bool
   widen(const odometry::SweepMatch& found, odometry::SweepPrior& prior) const;
   odometry::SweepMatch
+  matchGated(const Current& now, odometry::SweepPrior& wider) const;
+  odometry::SweepMatch
   bestMatch(const Current& now, const odometry::SweepPrior& prior) const;
   bool
   hasPause(const Current& now) const;

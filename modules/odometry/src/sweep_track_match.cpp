@@ -212,18 +212,17 @@ SweepTracker::Track::isBetter(const SweepMatch& found,
   return goes_on ? found.overlap > best.overlap : kRetryBelow * found.fit > best.fit;
 }
 
-/** Matches from constant velocity; where the fit is worse than usual, again with the widest gate
- * and a weak prior, from constant velocity and from the end of the sweep before. If nothing fits,
- * sweeps may be missing: further along the way. */
+/** Matches from constant velocity with the adaptive gate. Where the velocity changes more than
+ * expected, again with a wider prior, and with a sudden change. \param[in,out] wider prior */
 SweepMatch
-SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) const
+SweepTracker::Track::matchGated(const Current& now, SweepPrior& wider) const
 {
-  const double voxel = map_->options().voxel, widest = widestGate();
+  const SweepPrior prior = wider;
   const auto gated = [&](const SweepPrior& start) {
-    return match(now, start, std::clamp(start.gate, 2 * voxel, widest));
+    return match(
+        now, start, std::clamp(start.gate, 2 * map_->options().voxel, widestGate()));
   };
   SweepMatch best = gated(prior);
-  SweepPrior wider = prior;
   bool is_expected = true;
   for (int round = 0; round < kWidenings; ++round) {
     SweepPrior next = wider;
@@ -238,6 +237,18 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   }
   if (!is_expected)
     tryUneven(now, prior, best);
+  return best;
+}
+
+/** Matches from constant velocity; where the fit is worse than usual, again with the widest gate
+ * and a weak prior, from constant velocity and from the end of the sweep before. If nothing fits,
+ * sweeps may be missing: further along the way. */
+SweepMatch
+SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) const
+{
+  const double voxel = map_->options().voxel, widest = widestGate();
+  SweepPrior wider = prior;
+  SweepMatch best = matchGated(now, wider);
   const bool is_usual = isMatched(best) && deviationOf(best) <= kSuspicious;
   if (is_usual && best.fit >= kRetryBelow * usual_fit_ &&
       (best.overlap >= kRetryBelow * usual_overlap_ || hasPause(now)))
@@ -276,8 +287,7 @@ SweepTracker::Track::tryUneven(const Current& now,
     return;
   SweepPrior wider = prior;
   widen(best, wider);
-  const double gate =
-      std::clamp(wider.gate, 2 * map_->options().voxel, widestGate());
+  const double gate = std::clamp(wider.gate, 2 * map_->options().voxel, widestGate());
   for (const SweepMotion& start : {best.motion, prior.motion}) {
     wider.uneven = start;
     const SweepMatch found = match(now, wider, gate);

@@ -52,7 +52,7 @@ public:
   , earlier_(app::openEarlier(settings))
   , input_(app::openInput(settings, earlier_, ranks ? nullptr : &interrupt_))
   , folder_(input_.folder)
-  , scans_(app::openScans(folder_, settings, earlier_))
+  , scans_(app::openScans(input_, settings, earlier_))
   , settings_(app::resolved(settings, folder_, earlier_))
   , bar_(settings.quiet)
   , out_(app::runFolderRules(settings, folder_))

@@ -209,7 +209,7 @@ explainRun(const Settings& given)
   const EarlierRuns earlier = openEarlier(given);
   const RunInput input = openInput(given, earlier);
   const ScanFolder& folder = input.folder;
-  RunScans scans = openScans(folder, given, earlier);
+  RunScans scans = openScans(input, given, earlier);
   const Settings settings = resolved(given, folder, earlier);
   for (const std::string& line :
        describeInput(settings, scans, earlier, input.drive, 1))

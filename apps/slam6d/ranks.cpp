@@ -266,7 +266,7 @@ help(WorkSharing& ranks, const std::string& name, const Settings& settings)
   const EarlierRuns earlier = openEarlier(settings);
   const RunInput input = openInput(settings, earlier);
   const ScanFolder& folder = input.folder;
-  RunScans scans = openScans(folder, settings, earlier);
+  RunScans scans = openScans(input, settings, earlier);
   const Settings all = resolved(settings, folder, earlier);
   const MemoryBudget memory(all.memory, all.out);
   Slam6D slam(all.slam);

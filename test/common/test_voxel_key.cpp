@@ -25,6 +25,19 @@ TEST(VoxelKey, SeparatesTheCellsOnBothSidesOfTheOrigin)
   EXPECT_NE(pcl6d::voxelKey({0.01f, 0, 0}, 0.1), pcl6d::voxelKey({-0.01f, 0, 0}, 0.1));
 }
 
+TEST(VoxelKey, OfTwiceTheEdgeFollowsFromTheKey)
+{
+  constexpr double kVoxel = 0.1;
+  pcl6d::Random random(2);
+  for (const auto& p : pcl6d::test::randomCube(random, 1000, 1000)) {
+    pcl6d::VoxelKey key = pcl6d::voxelKey(p, kVoxel);
+    for (const double edge : {2 * kVoxel, 4 * kVoxel, 8 * kVoxel}) {
+      key = pcl6d::coarserVoxel(key);
+      EXPECT_EQ(key, pcl6d::voxelKey(p, edge)) << p.transpose() << ", edge " << edge;
+    }
+  }
+}
+
 TEST(VoxelKey, RefusesWhatDoesNotFitInsteadOfWrappingAround)
 {
   EXPECT_NO_THROW(pcl6d::voxelKey({104000, 0, 0}, 0.1));

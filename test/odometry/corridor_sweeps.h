@@ -37,12 +37,20 @@ public:
   Sweep
   sweep(double stamp, double speed = 1.5)
   {
+    return sweepAlong([speed](double time) { return poseAt(time, speed); }, stamp);
+  }
+
+  /** \return the sweep that begins at a time, of a sensor with a pose for each time */
+  template <typename PoseOfTime>
+  Sweep
+  sweepAlong(const PoseOfTime& poseOf, double stamp)
+  {
     constexpr int kColumns = 300;
     Sweep sweep;
     sweep.stamp = stamp;
     for (int column = 0; column < kColumns; ++column) {
       const double time = kSweepTime * column / kColumns;
-      const Eigen::Isometry3d pose = poseAt(stamp + time, speed);
+      const Eigen::Isometry3d pose = poseOf(stamp + time);
       const double turn = 2 * M_PI * column / kColumns;
       for (int ring = 0; ring < 24; ++ring) {
         const double up = radians(2.5 * ring - 28.75);

@@ -70,6 +70,32 @@ TEST(SweepTracker, FollowsADriveWithMotionWithinItsSweeps)
   EXPECT_LE(keyframes, 20);
 }
 
+// A turn of 200 degrees a second begins and ends within sweeps: no linear change of velocity
+// describes it, and would leave points 5 m away off by 20 cm and more.
+TEST(SweepTracker, FollowsATurnThatBeginsWithinASweep)
+{
+  const auto pose = [](double time) {
+    const double turn = std::clamp(time - 2.05, 0.0, 0.3) * pcl6d::radians(200);
+    return Eigen::Isometry3d(CorridorSweeps::poseAt(time) *
+                             Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+  };
+  CorridorSweeps corridor;
+  pcl6d::SweepTracker tracker;
+  Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 30; ++i) {
+    const TrackedSweep found = tracker.track(corridor.sweepAlong(pose, kSweepTime * i));
+    const Eigen::Isometry3d truth =
+        pose(kSweepTime * (i - 1)).inverse() * pose(kSweepTime * i);
+    const auto error = distanceBetween(truth, before.inverse() * found.T_world_sweep);
+    before = found.T_world_sweep;
+    if (i < 15) // the first steps are rough
+      continue;
+    EXPECT_EQ(found.status, SweepStatus::kTracked) << i;
+    EXPECT_LT(error.translation, 0.03) << i;
+    EXPECT_LT(error.rotation, pcl6d::radians(0.3)) << i;
+  }
+}
+
 // At 6 m/s the slalom turns by up to 5 degrees a sweep: without times, a point 5 m away is off by
 // 40 cm.
 TEST(SweepTracker, TimesWithinSweepsMatter)

@@ -56,28 +56,30 @@ openInput(const Settings& settings,
           const Interrupt* interrupt)
 {
   if (earlier.areJoined())
-    return {joinedFolder(earlier), {}, std::nullopt};
+    return {joinedFolder(earlier), {}, std::nullopt, {}};
   std::optional<ScanFolder> folder;
   checkOptions([&] { folder.emplace(openScanFiles(settings.inputs, settings.folder)); },
                {{"poses_file", kPosesOption}});
   if (!earlier.empty())
     folder->continueRun(earlier.runs[0].path(), earlier.runs[0].summary());
   std::vector<RunResult::Stage> stages;
-  std::optional<DriveResult> drive;
+  TrackedScans tracked;
   if (earlier.empty() && isTracked(settings, *folder)) {
     const StageTimer timer("tracking", stages);
-    drive = trackSweeps(settings, *folder, interrupt);
+    tracked = trackSweeps(settings, *folder, interrupt);
   }
   if (earlier.empty() && !folder->posesAreEstimated())
-    drive = selectKeyframes(settings, *folder);
-  return {*std::move(folder), std::move(stages), std::move(drive)};
+    tracked.drive = selectKeyframes(settings, *folder);
+  return {*std::move(folder),
+          std::move(stages),
+          std::move(tracked.drive),
+          std::move(tracked.paths)};
 }
 
 RunScans
-openScans(const ScanFolder& folder,
-          const Settings& settings,
-          const EarlierRuns& earlier)
+openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier)
 {
+  const ScanFolder& folder = input.folder;
   RunScans scans(folder);
   if (earlier.areJoined()) {
     scans.gate(gatesOf(earlier, settings));
@@ -87,7 +89,7 @@ openScans(const ScanFolder& folder,
   const bool is_tracked_in_motion = settings.deskew == Deskew::kNone &&
                                     folder.posesAreEstimated() && haveTimes(folder);
   if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
-    scans.deskew(settings.interpolation);
+    scans.deskew(settings.interpolation, input.paths);
   if (settings.deskew == Deskew::kEstimate)
     scans.estimateMotion();
   scans.filterLines(settings.filter);

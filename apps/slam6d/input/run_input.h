@@ -26,6 +26,7 @@ struct RunInput {
   std::vector<RunResult::Stage> stages; ///< time and memory of tracking
   std::optional<DriveResult> drive; ///< the drive whose keyframes are the scans; empty:
                                     ///< no drive
+  std::vector<Trajectory> paths; ///< the tracked motion within each scan (TrackedScans)
 };
 
 /** \return the chosen scans, after the scans of an earlier run; or the scans of joined runs
@@ -37,11 +38,9 @@ openInput(const Settings& settings,
           const EarlierRuns& earlier,
           const Interrupt* interrupt = nullptr);
 
-/** \return the scans for registration */
+/** \return the scans for registration; keeps a reference to the folder of the input */
 RunScans
-openScans(const ScanFolder& folder,
-          const Settings& settings,
-          const EarlierRuns& earlier);
+openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier);
 
 /** \return the settings with values derived from the folder and earlier runs */
 Settings

@@ -42,8 +42,9 @@ nameOfAll(const ScanFolder& folder, std::size_t i)
 } // namespace
 
 void
-RunScans::deskew(MotionInterpolation interpolation)
+RunScans::deskew(MotionInterpolation interpolation, std::vector<Trajectory> paths)
 {
+  paths_ = std::move(paths);
   const std::size_t first = folder_.numRegistered();
   const std::string file = folder_.title(first);
   const std::string name = nameOfAll(folder_, first);
@@ -240,8 +241,12 @@ void
 RunScans::undoMotion(Scan& scan, std::size_t i) const
 {
   const double stamp = folder_.stamps()[i];
-  correction_->correct(
-      scan.points, correction_->timesOf(timesOf(scan.cloud, i), format_, stamp), stamp);
+  const std::vector<double> times =
+      correction_->timesOf(timesOf(scan.cloud, i), format_, stamp);
+  if (i < paths_.size() && !paths_[i].poses.empty())
+    MotionCorrection(paths_[i]).correct(scan.points, times, 0);
+  else
+    correction_->correct(scan.points, times, stamp);
   storeCoordinates(scan.points, scan.cloud);
 }
 

@@ -25,9 +25,12 @@ public:
   explicit RunScans(const ScanFolder& folder) : folder_(folder) {}
 
   /** \brief Enables deskewing. Reads the first scan to be registered, to detect how times are
-   * stored. \throws IoFailed poses, stamps or times are missing or broken */
+   * stored.
+   * \param[in] paths the motion within each scan, T_world_sensor at times [s] since the stamp, which
+   * is among them; where a path is missing or empty, the motion follows from the initial poses
+   * \throws IoFailed poses, stamps or times are missing or broken */
   void
-  deskew(MotionInterpolation interpolation);
+  deskew(MotionInterpolation interpolation, std::vector<Trajectory> paths = {});
 
   /** \brief Enables reading of the times of points, to estimate the motion within scans. Reads the
    * first scan to be registered, to detect how times are stored.
@@ -102,6 +105,7 @@ private:
 
   const ScanFolder& folder_;
   std::optional<MotionCorrection> correction_; ///< along the initial poses
+  std::vector<Trajectory> paths_;              ///< see deskew()
   bool estimates_motion_ = false;
   std::optional<MotionCorrection>
       clock_;                 ///< of estimated motion: the stamps of the scans

@@ -166,7 +166,7 @@ isTracked(const Settings& settings, const ScanFolder& folder)
   return !folder.posesDiffer() || (settings.takes_keyframes && areSweeps(folder));
 }
 
-std::optional<DriveResult>
+TrackedScans
 trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* interrupt)
 {
   ProgressBar bar(settings.quiet);
@@ -175,16 +175,23 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
     progress = watched(bar, *interrupt);
   TrackedDrive tracked(trackerOptions(settings.slam), folder, bar);
   if (!trackAll(settings, folder, progress, bar, tracked))
-    return std::nullopt;
+    return {};
   const std::size_t count = folder.size();
-  DriveResult drive = tracked.result();
-  folder.replacePoses(drive.poses, tracked.source());
+  TrackedScans found;
+  found.drive = tracked.result();
+  folder.replacePoses(found.drive->poses, tracked.source());
   const std::vector<std::size_t>& keyframes = tracked.keyframes();
-  if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count)
-    return std::nullopt;
+  if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count) {
+    for (std::size_t i = 0; i < count; ++i)
+      found.paths.push_back(tracked.path(i));
+    found.drive.reset();
+    return found;
+  }
+  for (const std::size_t i : keyframes)
+    found.paths.push_back(tracked.path(i));
   folder.keepOnly(keyframes);
   closeLoopsOfDrive(settings, folder, progress);
-  return drive;
+  return found;
 }
 
 std::optional<DriveResult>

@@ -6,6 +6,7 @@
 #include "slam6d/options/settings.h"
 
 #include <pcl6d/common/run_result.h>
+#include <pcl6d/common/trajectory.h>
 #include <pcl6d/io/scan_folder.h>
 
 #include <optional>
@@ -21,14 +22,22 @@ isTracked(const Settings& settings, const ScanFolder& folder);
 bool
 haveTimes(const ScanFolder& folder);
 
+/** \brief The tracked scans of a folder. */
+struct TrackedScans {
+  /** all sweeps with the tracked poses; none if each selected scan remains a scan of the map */
+  std::optional<DriveResult> drive;
+  /** the motion within each scan that remains selected: T_world_sensor at times [s] since its
+   * stamp, which is among them; empty: not tracked, or points have no times */
+  std::vector<Trajectory> paths;
+};
+
 /** \brief Tracks the scans of a folder in order (SweepTracker), and replaces its initial poses by
  * the tracked poses, in the world of the given poses. With --track auto the poses are kept if more
  * than a quarter of the scans is lost. With --every auto only the keyframes remain selected.
  * Prints the result.
  * \param[in] interrupt ends the work between two scans; may be null
- * \return all sweeps with the tracked poses; none if each selected scan remains a scan of the map
  * \throws IoFailed a scan cannot be read \throws Interrupted a signal came in */
-std::optional<DriveResult>
+TrackedScans
 trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* interrupt);
 
 /** \brief Selects keyframes among the sweeps of a recording by its poses, with --every auto, where

@@ -49,6 +49,24 @@ LostSweeps::say(const std::string& what, std::size_t i, const std::string& more)
     bar_.say("tracking: further lost sweeps are only counted");
 }
 
+namespace {
+/** \return the motion within a sweep and at its stamp: points at the stamp may be missing */
+Trajectory
+pathWithStamp(const TrackedSweep& sweep)
+{
+  Trajectory path = sweep.path;
+  if (!path.stamps.empty() && path.stamps.front() > 0) {
+    path.stamps.insert(path.stamps.begin(), 0);
+    path.poses.insert(path.poses.begin(), sweep.T_world_sweep);
+  }
+  else if (!path.stamps.empty() && path.stamps.back() < 0) {
+    path.stamps.push_back(0);
+    path.poses.push_back(sweep.T_world_sweep);
+  }
+  return path;
+}
+} // namespace
+
 TrackedDrive::TrackedDrive(const SweepTrackerOptions& options,
                            const ScanFolder& folder,
                            ProgressBar& bar)
@@ -99,10 +117,12 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
     first_ = i;
   else if (first_ && !is_lost_) { // now the motion within the first sweep is known
     drive_.poses[*first_] = tracker_.firstOfSegment().T_world_sweep;
+    paths_[*first_] = pathWithStamp(tracker_.firstOfSegment());
     first_.reset();
   }
   lost_.see(i, found.status);
   drive_.poses.push_back(found.T_world_sweep);
+  paths_.push_back(pathWithStamp(found));
   num_lost_ += is_lost_ ? 1 : 0;
   if (is_lost_ && !has_given_)
     drive_.lost.push_back(folder_.index(i));

@@ -75,6 +75,14 @@ public:
     return keyframes_;
   }
 
+  /** \return the motion within a sweep: T_world_sensor at times [s] since the stamp, which is among
+   * them; empty: points have no times */
+  const Trajectory&
+  path(std::size_t i) const
+  {
+    return paths_.at(i);
+  }
+
   /** \return the number of sweeps without a match so far */
   std::size_t
   numLost() const
@@ -93,6 +101,7 @@ private:
   SweepTracker tracker_;
   LostSweeps lost_;
   DriveResult drive_; ///< in the world of the tracker
+  std::vector<Trajectory> paths_;
   std::vector<std::size_t> keyframes_;
   std::optional<std::size_t> first_; ///< first sweep of a map, without motion so far
   bool is_lost_ = false, is_open_ = false; ///< the sweep before

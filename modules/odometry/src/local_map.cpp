@@ -65,14 +65,17 @@ LocalMap::Sums&
 LocalMap::freshSums(VoxelKey key, Level& level, std::vector<Fresh>& fresh)
 {
   const auto [number, is_new] = level.numbers.add(key);
-  if (is_new)
+  if (is_new) {
     level.voxels.emplace_back().key = key;
-  Voxel& voxel = level.voxels[number];
-  if (voxel.fresh == 0) {
-    fresh.push_back({number, {}});
-    voxel.fresh = fresh.size();
+    level.surfaces.emplace_back();
+    level.fresh.push_back(0);
   }
-  return fresh[voxel.fresh - 1].sums;
+  std::uint32_t& place = level.fresh[number];
+  if (place == 0) {
+    fresh.push_back({number, {}});
+    place = static_cast<std::uint32_t>(fresh.size());
+  }
+  return fresh[place - 1].sums;
 }
 
 /** Adds sums about another point. \param[in] offset from the centre of `to` to the
@@ -112,31 +115,33 @@ LocalMap::add(const std::vector<Eigen::Vector3d>& points)
     Level& level = levels_[l];
     above.clear();
     for (const Fresh& sums : fresh) {
-      Voxel& voxel = level.voxels[sums.number];
       if (l + 1 < levels_.size()) {
         Level& next = levels_[l + 1];
-        const Eigen::Vector3d centre = centreOf(voxel.key, level.edge);
-        const VoxelKey key = voxelKey(centre.cast<float>(), next.edge);
-        shift(
-            sums.sums, centre - centreOf(key, next.edge), freshSums(key, next, above));
+        const VoxelKey key = level.voxels[sums.number].key, around = coarserVoxel(key);
+        shift(sums.sums,
+              centreOf(key, level.edge) - centreOf(around, next.edge),
+              freshSums(around, next, above));
       }
-      voxel.fresh = 0;
-      take(sums.sums, level.edge, voxel);
+      level.fresh[sums.number] = 0;
+      take(sums, level);
     }
   }
 }
 
 void
-LocalMap::take(const Sums& fresh, double edge, Voxel& voxel) const
+LocalMap::take(const Fresh& fresh, Level& level) const
 {
+  Voxel& voxel = level.voxels[fresh.number];
   Sums& sums = voxel.sums;
-  const double weight = std::min(1.0, options_.points_of_sweep / fresh.count);
-  const double room = options_.points_of_voxel - weight * fresh.count;
+  const Sums& added = fresh.sums;
+  const double weight = std::min(1.0, options_.points_of_sweep / added.count);
+  const double room = options_.points_of_voxel - weight * added.count;
   const double kept = sums.count > 0 ? std::clamp(room / sums.count, 0.0, 1.0) : 1;
-  sums.count = kept * sums.count + weight * fresh.count;
-  sums.first = kept * sums.first + weight * fresh.first;
-  sums.second = kept * sums.second + weight * fresh.second;
-  voxel.surface = surfaceOf(sums, centreOf(voxel.key, edge), edge);
+  sums.count = kept * sums.count + weight * added.count;
+  sums.first = kept * sums.first + weight * added.first;
+  sums.second = kept * sums.second + weight * added.second;
+  level.surfaces[fresh.number] =
+      surfaceOf(sums, centreOf(voxel.key, level.edge), level.edge);
 }
 
 MapSurface
@@ -179,25 +184,42 @@ LocalMap::keepWithin(const Eigen::Vector3d& place, double distance)
       if ((centreOf(key, level.edge) - place).norm() > distance)
         continue;
       numbers.add(key);
-      level.voxels[kept++] = level.voxels[i];
+      level.voxels[kept] = level.voxels[i];
+      level.surfaces[kept++] = level.surfaces[i];
     }
     level.voxels.resize(kept);
+    level.surfaces.resize(kept);
+    level.fresh.resize(kept);
     level.numbers = std::move(numbers);
   }
+}
+
+std::optional<VoxelKey>
+LocalMap::voxelAt(const Eigen::Vector3d& place) const
+{
+  if (!isInside(place))
+    return std::nullopt;
+  return voxelKey(place.cast<float>(), options_.voxel);
 }
 
 const MapSurface*
 LocalMap::surfaceAt(const Eigen::Vector3d& place) const
 {
+  const std::optional<VoxelKey> key = voxelAt(place);
+  return key ? surfaceIn(*key) : nullptr;
+}
+
+const MapSurface*
+LocalMap::surfaceIn(VoxelKey smallest) const
+{
   const MapSurface* found = nullptr;
-  if (!isInside(place))
-    return found;
-  const Eigen::Vector3f p = place.cast<float>();
+  VoxelKey key = smallest;
   for (const Level& level : levels_) {
-    const std::size_t number = level.numbers.find(voxelKey(p, level.edge));
+    const std::size_t number = level.numbers.find(key);
+    key = coarserVoxel(key);
     if (number == level.numbers.size())
       continue;
-    const MapSurface& surface = level.voxels[number].surface;
+    const MapSurface& surface = level.surfaces[number];
     if (surface.shape == VoxelShape::kNone)
       continue;
     const bool is_plane = surface.shape == VoxelShape::kPlane;
@@ -233,6 +255,8 @@ LocalMap::numBytes() const
   std::size_t bytes = 0;
   for (const Level& level : levels_)
     bytes += level.voxels.capacity() * sizeof(Voxel) +
+             level.surfaces.capacity() * sizeof(MapSurface) +
+             level.fresh.capacity() * sizeof(std::uint32_t) +
              2 * level.voxels.capacity() * 2 * sizeof(VoxelKey); // hash half full
   return bytes;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sweep_equations.h"
 #include "sweep_matcher.h"
 
 #include <pcl6d/common/decompositions.h>
@@ -14,12 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace pcl6d::odometry {
 
 namespace {
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 constexpr std::size_t kPointsPerBlock = 512;
 
@@ -40,6 +40,7 @@ constexpr double kEndShare = 0.05;
 
 /** A point, the surface at its position, and the distance. */
 struct Pair {
+  std::optional<VoxelKey> voxel; ///< the smallest around the point
   const MapSurface* surface = nullptr;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();    ///< [m] from the centre
   Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< [m] from the surface
@@ -61,47 +62,6 @@ struct Pair {
   }
 };
 
-/** Sums of the normal equations, split by the shares of begin and end. */
-struct Sums {
-  Matrix6 begin = Matrix6::Zero(), mixed = Matrix6::Zero(), end = Matrix6::Zero();
-  Twist begin_side = Twist::Zero(), end_side = Twist::Zero();
-
-  /** \param[in] row d distance / d motion \param[in] weight [1/m^2] */
-  void
-  add(const Twist& row, double distance, double weight, double share)
-  {
-    const double rest = 1 - share;
-    const double bb = weight * rest * rest, be = weight * rest * share,
-                 ee = weight * share * share;
-    for (int c = 0; c < 6; ++c)
-      for (int r = c; r < 6; ++r) {
-        const double product = row(r) * row(c);
-        begin(r, c) += bb * product;
-        mixed(r, c) += be * product;
-        end(r, c) += ee * product;
-      }
-    begin_side += (weight * rest * distance) * row;
-    end_side += (weight * share * distance) * row;
-  }
-
-  friend Sums
-  operator+(Sums a, const Sums& b)
-  {
-    a.begin += b.begin;
-    a.mixed += b.mixed;
-    a.end += b.end;
-    a.begin_side += b.begin_side;
-    a.end_side += b.end_side;
-    return a;
-  }
-};
-
-Matrix6
-full(const Matrix6& lower)
-{
-  return lower.selfadjointView<Eigen::Lower>();
-}
-
 /** State of the iterations of a match. */
 class Match {
 public:
@@ -109,14 +69,19 @@ public:
         const SweepPoints& points,
         const SweepPrior& prior,
         const SweepMatchOptions& options)
-  : map_(map), points_(points), prior_(prior), options_(options), pairs_(points.size())
+  : map_(map)
+  , points_(points)
+  , prior_(prior)
+  , options_(options)
+  , num_parts_(prior.uneven ? kSweepParts : 1)
+  , pairs_(points.size())
   {}
 
   SweepMatch
   run()
   {
     SweepMatch match;
-    match.motion = prior_.motion;
+    match.motion = prior_.uneven.value_or(prior_.motion);
     double scale = options_.gate;
     bool is_at_rest = false;
     while (match.iterations < options_.max_iterations) {
@@ -124,18 +89,15 @@ public:
       findPairs(match.motion);
       if (!measureDeviation(match))
         return match;
-      const Vector12 step = solve(match, scale);
+      const Eigen::VectorXd step = solve(match, scale);
       if (!step.allFinite()) {
         match.status = Status::kDiverged;
         return match;
       }
       move(step, match.motion);
       scale *= kDecay;
-      const double moved =
-          std::max(step.head<3>().norm(), step.segment<3>(6).norm()) +
-          reach_ * std::max(step.segment<3>(3).norm(), step.tail<3>().norm());
       is_at_rest = scale < kKernelDeviations * options_.noise &&
-                   moved < kEndShare * options_.noise;
+                   movedBy(step) < kEndShare * options_.noise;
       if (is_at_rest)
         break;
     }
@@ -151,17 +113,21 @@ private:
     parallelBlocks(
         points_.size(), kPointsPerBlock, options_.num_threads, [&](const Block& block) {
           for (std::size_t i = block.begin; i < block.end; ++i)
-            pairs_[i] = pairOf(motion.place(points_[i]));
+            pair(motion.place(points_[i]), pairs_[i]);
         });
   }
 
-  Pair
-  pairOf(const Eigen::Vector3d& place) const
+  /** Most points stay in their voxel from one iteration to the next. */
+  void
+  pair(const Eigen::Vector3d& place, Pair& pair) const
   {
-    Pair pair;
-    pair.surface = map_.surfaceAt(place);
+    const std::optional<VoxelKey> voxel = map_.voxelAt(place);
+    if (voxel != pair.voxel) {
+      pair.voxel = voxel;
+      pair.surface = voxel ? map_.surfaceIn(*voxel) : nullptr;
+    }
     if (!pair.surface)
-      return pair;
+      return;
     pair.arm = place - prior_.centre;
     pair.offset = place - pair.surface->mean;
     pair.deviation =
@@ -169,7 +135,6 @@ private:
     pair.distance = pair.surface->shape == VoxelShape::kPlane
                         ? pair.surface->normal.dot(pair.offset)
                         : pair.offset.norm() / std::sqrt(3.0);
-    return pair;
   }
 
   /** \return whether the pairs suffice */
@@ -192,10 +157,22 @@ private:
     return true;
   }
 
-  Sums
+  /** \return [m] largest movement of the typical point */
+  double
+  movedBy(const Eigen::VectorXd& step) const
+  {
+    double translation = 0, rotation = 0;
+    for (Eigen::Index at = 0; at < step.size(); at += 6) {
+      translation = std::max(translation, step.segment<3>(at).norm());
+      rotation = std::max(rotation, step.segment<3>(at + 3).norm());
+    }
+    return translation + reach_ * rotation;
+  }
+
+  std::vector<PartSums>
   sumsOf(const Block& block, double deviation, double scale) const
   {
-    Sums sums;
+    std::vector<PartSums> sums(num_parts_);
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const Pair& pair = pairs_[i];
       if (!pair.surface)
@@ -205,82 +182,38 @@ private:
       const double kernel =
           limit * limit / (limit * limit + pair.distance * pair.distance);
       const double weight = kernel * kernel / (spread * spread * options_.correlation);
+      const SweepPart at(points_[i].share, num_parts_);
       Twist row;
       if (pair.surface->shape == VoxelShape::kPlane) {
         row << pair.surface->normal, pair.arm.cross(pair.surface->normal);
-        sums.add(row, pair.distance, weight, points_[i].share);
+        sums[at.part].add(row, pair.distance, weight, at.share);
         continue;
       }
       for (int axis = 0; axis < 3; ++axis) {
         const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
         row << unit, pair.arm.cross(unit);
-        sums.add(row, pair.offset(axis), weight, points_[i].share);
+        sums[at.part].add(row, pair.offset(axis), weight, at.share);
       }
     }
     return sums;
   }
 
-  /** \return the motions of begin and end */
-  Vector12
+  /** \return the motions of begin and end, with those between the parts in between */
+  Eigen::VectorXd
   solve(const SweepMatch& match, double scale)
   {
-    std::vector<Sums> partial((points_.size() + kPointsPerBlock - 1) / kPointsPerBlock);
+    std::vector<std::vector<PartSums>> partial((points_.size() + kPointsPerBlock - 1) /
+                                               kPointsPerBlock);
     parallelBlocks(
         points_.size(), kPointsPerBlock, options_.num_threads, [&](const Block& block) {
           partial[block.index] = sumsOf(block, match.deviation, scale);
         });
-    data_ = mergeTree(std::move(partial), std::plus<Sums>());
-    normal_.topLeftCorner<6, 6>() = full(data_.begin);
-    normal_.bottomLeftCorner<6, 6>() = full(data_.mixed);
-    normal_.topRightCorner<6, 6>() = full(data_.mixed);
-    normal_.bottomRightCorner<6, 6>() = full(data_.end);
-    Vector12 side;
-    side << data_.begin_side, data_.end_side;
-    if (prior_.holds_open) {
-      const Matrix6 fixed = fixedPart(match.deviation);
-      for (int r = 0; r < 12; r += 6) {
-        side.segment<6>(r) = (fixed.transpose() * side.segment<6>(r)).eval();
-        for (int c = 0; c < 12; c += 6)
-          normal_.block<6, 6>(r, c) =
-              (fixed.transpose() * normal_.block<6, 6>(r, c) * fixed).eval();
-      }
-    }
-    addPrior(match.motion, side);
-    return normal_.ldlt().solve(-side);
-  }
-
-  /** \return the motion from one pose to another in world axes, about the centre */
-  Twist
-  errorOf(const Eigen::Isometry3d& found, const Eigen::Isometry3d& expected) const
-  {
-    Twist error;
-    error.tail<3>() = rotationVector(found.linear() * expected.linear().transpose());
-    const Eigen::Vector3d arm = expected.translation() - prior_.centre;
-    error.head<3>() = found.translation() - expected.translation() -
-                      Eigen::Vector3d(error.tail<3>()).cross(arm);
-    return error;
-  }
-
-  void
-  addPrior(const SweepMotion& motion, Vector12& side)
-  {
-    const Matrix6& begin = prior_.begin_information;
-    const Twist off_begin = errorOf(motion.begin, prior_.motion.begin);
-    normal_.topLeftCorner<6, 6>() += begin;
-    side.head<6>() += begin * off_begin;
-    const Twist off_velocity =
-        errorOf(motion.end(), motion.begin * motionFromTwist(prior_.motion.velocity));
-    Matrix6 steady = Matrix6::Zero();
-    steady.diagonal() << Eigen::Vector3d::Constant(
-        1 / (prior_.translation * prior_.translation)),
-        Eigen::Vector3d::Constant(1 / (prior_.rotation * prior_.rotation));
-    // The centre is near the scanner: a change of its velocity is a change about the centre.
-    normal_.topLeftCorner<6, 6>() += steady;
-    normal_.bottomRightCorner<6, 6>() += steady;
-    normal_.topRightCorner<6, 6>() -= steady;
-    normal_.bottomLeftCorner<6, 6>() -= steady;
-    side.head<6>() -= steady * off_velocity;
-    side.tail<6>() += steady * off_velocity;
+    SweepEquations equations(mergeTree(std::move(partial), added));
+    if (prior_.holds_open)
+      equations.project(fixedPart(match.deviation));
+    equations.add(prior_, match.motion);
+    normal_ = equations.normal();
+    return equations.solve();
   }
 
   Eigen::Isometry3d
@@ -291,13 +224,29 @@ private:
   }
 
   void
-  move(const Vector12& step, SweepMotion& motion) const
+  move(const Eigen::VectorXd& step, SweepMotion& motion) const
   {
+    std::vector<Eigen::Isometry3d> between;
+    const auto shareOf = [this](std::size_t part) {
+      return static_cast<double>(part) / static_cast<double>(num_parts_);
+    };
+    for (std::size_t part = 1; part < num_parts_; ++part)
+      between.push_back(
+          moved(motion.begin * motionFromTwist(motion.twistAt(shareOf(part))),
+                step.segment<6>(static_cast<Eigen::Index>(6 * part))));
     const Eigen::Isometry3d end = moved(motion.end(), step.tail<6>());
     motion.begin = moved(motion.begin, step.head<6>());
     const Twist velocity = twistFromMotion(motion.begin.inverse() * end);
     motion.change += velocity - motion.velocity;
     motion.velocity = velocity;
+    motion.offsets.clear();
+    if (between.empty())
+      return;
+    std::vector<Twist> offsets(num_parts_ + 1, Twist::Zero());
+    for (std::size_t part = 1; part < num_parts_; ++part)
+      offsets[part] = twistFromMotion(motion.begin.inverse() * between[part - 1]) -
+                      motion.twistAt(shareOf(part));
+    motion.offsets = std::move(offsets);
   }
 
   void
@@ -319,7 +268,8 @@ private:
     const auto last = std::unique(surfaces.begin(), surfaces.end());
     match.correlation =
         std::max(1.0, count / static_cast<double>(last - surfaces.begin()));
-    const Matrix12 covariance = normal_.ldlt().solve(Matrix12::Identity());
+    const Eigen::MatrixXd covariance =
+        normal_.ldlt().solve(Eigen::MatrixXd::Identity(normal_.rows(), normal_.cols()));
     match.begin_covariance = covariance.topLeftCorner<6, 6>();
     match.end_information = inverted<6>(Matrix6(covariance.bottomRightCorner<6, 6>()));
     match.free_directions = localizability(match.deviation).openDirections();
@@ -369,10 +319,10 @@ private:
   const SweepPoints& points_;
   const SweepPrior& prior_;
   const SweepMatchOptions& options_;
+  const std::size_t num_parts_; ///< of the sweep, each with a velocity of its own
   std::vector<Pair> pairs_;
   double reach_ = 1; ///< [m] rms distance of the points from the centre
-  Sums data_;
-  Matrix12 normal_ = Matrix12::Zero();
+  Eigen::MatrixXd normal_;
 };
 } // namespace
 

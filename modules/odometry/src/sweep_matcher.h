@@ -21,6 +21,8 @@ struct SweepPrior {
   double translation = 1;  ///< [m] deviation of the velocity, over the sweep
   double rotation = 1;     ///< [rad]
   double gate = 1;         ///< [m] largest error of a point that follows from the prior
+  /** where the match starts, and the offsets are matched, too; missing: at `motion` */
+  std::optional<SweepMotion> uneven;
 };
 
 /** \brief Knobs of a match. */

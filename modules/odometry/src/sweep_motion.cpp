@@ -33,6 +33,13 @@ SweepMotion::place(const SweepPoint& measured) const
   return begin * moved;
 }
 
+Twist
+SweepMotion::offsetAt(double share) const
+{
+  const SweepPart at(share, kSweepParts);
+  return (1 - at.share) * offsets[at.part] + at.share * offsets[at.part + 1];
+}
+
 std::vector<Eigen::Vector3d>
 placesOf(const SweepPoints& points, const SweepMotion& motion, unsigned int num_threads)
 {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace pcl6d::odometry {
@@ -17,7 +19,11 @@ struct SweepPoint {
 };
 using SweepPoints = std::vector<SweepPoint>;
 
-/** \brief The motion of a scanner within a sweep: a linear change of velocity. */
+/** Parts of a sweep within which the velocity is constant, where it changes suddenly. */
+inline constexpr std::size_t kSweepParts = 8;
+
+/** \brief The motion of a scanner within a sweep: a linear change of velocity, and, where this does
+ * not describe the motion, offsets from it between the parts of the sweep. */
 struct SweepMotion {
   Eigen::Isometry3d begin =
       Eigen::Isometry3d::Identity(); ///< T_world_sensor at share 0
@@ -25,6 +31,8 @@ struct SweepMotion {
   /** difference of the velocity from the sweep before: half of the change falls
    * within this sweep */
   Twist change = Twist::Zero();
+  /** twists in addition, at the begin of each part and at the end, in between linear; empty: none */
+  std::vector<Twist> offsets;
 
   /** \return T_world_sensor at share 1 */
   Eigen::Isometry3d
@@ -37,12 +45,31 @@ struct SweepMotion {
   Twist
   twistAt(double share) const
   {
-    return share * velocity - 0.5 * share * (1 - share) * change;
+    const Twist even = share * velocity - 0.5 * share * (1 - share) * change;
+    return offsets.empty() ? even : Twist(even + offsetAt(share));
   }
 
   /** \return the place of a point [m, world] */
   Eigen::Vector3d
   place(const SweepPoint& measured) const;
+
+private:
+  Twist
+  offsetAt(double share) const;
+};
+
+/** \brief A share of the time of a sweep as a part and a share of the part. */
+struct SweepPart {
+  std::size_t part = 0;
+  double share = 0;
+
+  SweepPart(double share_of_sweep, std::size_t num_parts)
+  {
+    const double place = share_of_sweep * static_cast<double>(num_parts);
+    if (place > 0) // a stamp may lie before the sweep
+      part = std::min(static_cast<std::size_t>(place), num_parts - 1);
+    share = place - static_cast<double>(part);
+  }
 };
 
 /** \return the positions of the points [m, world] */

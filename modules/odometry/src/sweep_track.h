@@ -75,6 +75,8 @@ private:
   bool
   widen(const odometry::SweepMatch& found, odometry::SweepPrior& prior) const;
   odometry::SweepMatch
+  matchGated(const Current& now, odometry::SweepPrior& wider) const;
+  odometry::SweepMatch
   bestMatch(const Current& now, const odometry::SweepPrior& prior) const;
   bool
   hasPause(const Current& now) const;
@@ -84,6 +86,10 @@ private:
   {
     return 0.5 * std::ldexp(map_->options().voxel, map_->options().levels - 1);
   }
+  void
+  tryUneven(const Current& now,
+            const odometry::SweepPrior& prior,
+            odometry::SweepMatch& best) const;
   void
   tryFurther(const Current& now,
              const odometry::SweepPrior& prior,

@@ -212,6 +212,34 @@ SweepTracker::Track::isBetter(const SweepMatch& found,
   return goes_on ? found.overlap > best.overlap : kRetryBelow * found.fit > best.fit;
 }
 
+/** Matches from constant velocity with the adaptive gate. Where the velocity changes more than
+ * expected, again with a wider prior, and with a sudden change. \param[in,out] wider prior */
+SweepMatch
+SweepTracker::Track::matchGated(const Current& now, SweepPrior& wider) const
+{
+  const SweepPrior prior = wider;
+  const auto gated = [&](const SweepPrior& start) {
+    return match(
+        now, start, std::clamp(start.gate, 2 * map_->options().voxel, widestGate()));
+  };
+  SweepMatch best = gated(prior);
+  bool is_expected = true;
+  for (int round = 0; round < kWidenings; ++round) {
+    SweepPrior next = wider;
+    if (!widen(best, next))
+      break;
+    is_expected = false;
+    const SweepMatch found = gated(next);
+    if (found.overlap < best.overlap) // a false match would widen the prior without end
+      break;
+    best = found;
+    wider = next;
+  }
+  if (!is_expected)
+    tryUneven(now, prior, best);
+  return best;
+}
+
 /** Matches from constant velocity; where the fit is worse than usual, again with the widest gate
  * and a weak prior, from constant velocity and from the end of the sweep before. If nothing fits,
  * sweeps may be missing: further along the way. */
@@ -219,13 +247,8 @@ SweepMatch
 SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) const
 {
   const double voxel = map_->options().voxel, widest = widestGate();
-  const auto gated = [&](const SweepPrior& start) {
-    return match(now, start, std::clamp(start.gate, 2 * voxel, widest));
-  };
-  SweepMatch best = gated(prior);
   SweepPrior wider = prior;
-  for (int round = 0; round < kWidenings && widen(best, wider); ++round)
-    best = gated(wider);
+  SweepMatch best = matchGated(now, wider);
   const bool is_usual = isMatched(best) && deviationOf(best) <= kSuspicious;
   if (is_usual && best.fit >= kRetryBelow * usual_fit_ &&
       (best.overlap >= kRetryBelow * usual_overlap_ || hasPause(now)))
@@ -244,11 +267,33 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   if (prior.goes_on)
     loose.motion.velocity.setZero();
   attempt(loose);
+  tryUneven(now, prior, best);
   const bool is_bend = best.distortion > voxel; // shows new parts, too
   if (!isMatched(best) ||
       (!is_bend && (!hasPause(now) || deviationOf(best) > kSuspicious)))
     tryFurther(now, prior, loose, best);
   return best;
+}
+
+/** Matches with a velocity that changes suddenly within the sweep: a robot that turns on the spot,
+ * or a corner of a simulated way. Starts from the best match, near where the change comes early, and
+ * from the expected motion, near where it comes late. */
+void
+SweepTracker::Track::tryUneven(const Current& now,
+                               const SweepPrior& prior,
+                               SweepMatch& best) const
+{
+  if (!now.is_timed || best.status == Status::kTooFewPairs)
+    return;
+  SweepPrior wider = prior;
+  widen(best, wider);
+  const double gate = std::clamp(wider.gate, 2 * map_->options().voxel, widestGate());
+  for (const SweepMotion& start : {best.motion, prior.motion}) {
+    wider.uneven = start;
+    const SweepMatch found = match(now, wider, gate);
+    if (isBetter(found, best, true))
+      best = found;
+  }
 }
 
 /** Matches further along the way, where more of the sweep is seen: sweeps may be missing without a

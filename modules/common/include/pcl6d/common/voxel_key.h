@@ -20,6 +20,10 @@ using VoxelKey = std::uint64_t;
 VoxelKey
 voxelKey(const Eigen::Vector3f& p, double voxel);
 
+/** \return the key of the cell around a cell in the grid of twice the edge */
+VoxelKey
+coarserVoxel(VoxelKey key);
+
 /** \return the centre of the cell [m] */
 Eigen::Vector3f
 voxelCentre(VoxelKey key, double voxel);

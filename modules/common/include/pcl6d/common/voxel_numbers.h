@@ -61,7 +61,7 @@ private:
     constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U; // of 2^64: Knuth, 6.4
     std::size_t place = static_cast<std::size_t>(key * kGoldenRatio >> shift_);
     while (slots_[place].number > 0 && slots_[place].key != key)
-      place = (place + 1) % slots_.size();
+      place = (place + 1) & (slots_.size() - 1);
     return place;
   }
 

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
@@ -75,6 +77,15 @@ public:
   const MapSurface*
   surfaceAt(const Eigen::Vector3d& place) const;
 
+  /** \return the key of the smallest voxel around a place; all places in it have one surface;
+   * none: the place is outside the grid */
+  std::optional<VoxelKey>
+  voxelAt(const Eigen::Vector3d& place) const;
+
+  /** \return the surface at the places in a smallest voxel; null: no surface */
+  const MapSurface*
+  surfaceIn(VoxelKey smallest) const;
+
   /** \return whether a point of the map lies in the voxel of a level around a place */
   bool
   isOccupied(const Eigen::Vector3d& place, int level) const;
@@ -104,13 +115,15 @@ private:
   struct Voxel {
     VoxelKey key = 0;
     Sums sums;
-    std::size_t fresh = 0; ///< 1 + index of the voxel's sums over the sweep being added
-    MapSurface surface;
   };
+  /** The data of a voxel are apart by use: a look-up touches only one of the vectors. */
   struct Level {
     double edge = 0; ///< [m]
     VoxelNumbers numbers;
     std::vector<Voxel> voxels;
+    std::vector<MapSurface> surfaces;
+    /** 1 + index of the voxel's sums over the sweep being added; 0: none */
+    std::vector<std::uint32_t> fresh;
   };
   struct Fresh {
     std::size_t number = 0; ///< of the voxel
@@ -124,7 +137,7 @@ private:
   static void
   shift(const Sums& from, const Eigen::Vector3d& offset, Sums& to);
   void
-  take(const Sums& fresh, double edge, Voxel& voxel) const;
+  take(const Fresh& fresh, Level& level) const;
   static MapSurface
   surfaceOf(const Sums& sums, const Eigen::Vector3d& centre, double edge);
 

@@ -171,6 +171,29 @@ TEST(ScanJoiner, TakesWhatItFoundBeforeFromTheMemory)
   EXPECT_EQ(joinScans(scans.all(), options).groups.size(), room.points.size());
 }
 
+TEST(ScanJoiner, AGroupThatBeganWithAWrongPairGivesWayToALargerOne)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  pcl6d::PairMemory memory;
+  JoinOptions options;
+  options.memory = &memory;
+  joinScans(scans.all(), options);
+  // The pair of the first two scans seems the surest of all, at a wrong pose.
+  const Eigen::Isometry3d wrong = room.T_world_scan[0].inverse() *
+                                  poseFromEuler({3, 0, 0}, {0, 0, 0}) *
+                                  room.T_world_scan[1];
+  const auto &first = scans.all()[0].scan(), &second = scans.all()[1].scan();
+  memory.keepCandidates({&first, &second}, options.max_ambiguity, {{wrong, 10, true}});
+  memory.keepCandidates(
+      {&second, &first}, options.max_ambiguity, {{wrong.inverse(), 10, true}});
+  const JoinedScans found = joinScans(scans.all(), options);
+  ASSERT_GE(found.groups.front().size(), 5U);
+  expectTruth(found, found.groups.front(), room.T_world_scan);
+}
+
 TEST(ScanJoiner, TwoSitesAreTwoGroups)
 {
   const RoomScans room, other(longRoom(), 4);

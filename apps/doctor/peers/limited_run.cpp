@@ -87,8 +87,8 @@ beChild(const std::function<nlohmann::json()>& work, int result, int said, pid_t
     answer["threw"] = "an object that is no std::exception";
   }
   std::fflush(nullptr);
-  using Json = nlohmann::json;
-  writeAll(result, answer.dump(-1, ' ', true, Json::error_handler_t::replace));
+  writeAll(result,
+           answer.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   ::_exit(0);
 }
 

@@ -15,6 +15,10 @@ namespace {
 /** Rounds of tests of each scan against the rest of its group. */
 constexpr int kRechecks = 3;
 
+/** Number of groups that are also grown from all scans. Each takes about as long as the first group,
+ * a third of the whole time. */
+constexpr int kGrownAlone = 2;
+
 /** Number of scans of a block, evenly chosen, tested individually at the new pose: a large
  * block then takes no longer than a few scans. */
 constexpr std::size_t kAskedOfBlock = 12;
@@ -50,9 +54,7 @@ Joiner::run(JoinedScans& result)
       ranked_, scans_.size(), options_.pairs_per_scan, [this](std::size_t scan) {
         return isKnown(scan);
       }));
-  growKnown();
-  while (const auto seed = hypotheses_.strongestBeginning(grown_.joined, grown_.tried))
-    addLargest(*seed);
+  growGroups();
   mergeGroups();
   testAgain();
   const auto is_inside = [this](std::size_t scan) {
@@ -176,6 +178,23 @@ Joiner::testAgain()
     }
 }
 
+/** Groups of scans with known poses, and groups from the strongest pairs of the others. */
+void
+Joiner::growGroups()
+{
+  growKnown();
+  const bool has_known = !grown_.groups.empty();
+  for (int round = 0;; ++round) {
+    const auto seed = hypotheses_.strongestBeginning(grown_.joined, grown_.tried);
+    if (!seed)
+      break;
+    if (grown_.groups.empty() || has_known || round > kGrownAlone)
+      addGrown(*seed, scans_.size());
+    else
+      addLargest(*seed);
+  }
+}
+
 /** The groups of scans with known poses, in the order of their numbers. */
 void
 Joiner::growKnown()
@@ -199,32 +218,32 @@ Joiner::growKnown()
 void
 Joiner::addLargest(const PlaceHypothesis& seed)
 {
-  std::size_t largest = 0, alone = 0;
-  for (const JoinedGroup& group : grown_.groups)
-    largest = std::max(largest, group.scans.members().size());
-  const bool has_known = std::any_of(
-      known_.begin(), known_.end(), [](const auto& one) { return one.has_value(); });
-  if (largest > 0 && !has_known) {
-    Grown before = grown_;
-    grown_ = {};
-    grown_.joined.resize(scans_.size());
-    grown_.rejections.resize(scans_.size());
-    grown_.tried = before.tried;
-    addGrown(seed);
-    for (const JoinedGroup& group : grown_.groups)
-      alone = std::max(alone, group.scans.members().size());
-    if (alone > largest)
-      return;
-    grown_ = std::move(before);
-  }
-  const std::size_t first = grown_.groups.size();
-  addGrown(seed);
-  for (std::size_t g = first; g < grown_.groups.size(); ++g)
-    grown_.groups[g].most = std::max(grown_.groups[g].most, alone);
+  const std::size_t largest = sizeOfLargest();
+  Grown before = std::move(grown_);
+  grown_ = {};
+  grown_.joined.resize(scans_.size());
+  grown_.rejections.resize(scans_.size());
+  grown_.tried = before.tried;
+  addGrown(seed, scans_.size());
+  const std::size_t alone = sizeOfLargest();
+  if (alone > largest)
+    return;
+  grown_ = std::move(before);
+  addGrown(seed, alone);
 }
 
+std::size_t
+Joiner::sizeOfLargest() const
+{
+  std::size_t largest = 0;
+  for (const JoinedGroup& group : grown_.groups)
+    largest = std::max(largest, group.scans.members().size());
+  return largest;
+}
+
+/** \param[in] most number of scans that the group could have */
 void
-Joiner::addGrown(const PlaceHypothesis& seed)
+Joiner::addGrown(const PlaceHypothesis& seed, std::size_t most)
 {
   ScanGroup group(scans_);
   group.add(seed.first, Eigen::Isometry3d::Identity());
@@ -241,8 +260,8 @@ Joiner::addGrown(const PlaceHypothesis& seed)
                               options_.max_ambiguity,
                               options_.num_threads);
   for (const ScanGroup& part : parts)
-    grown_.groups.push_back({part, {}, part.members().size()});
-  grown_.groups.push_back({group, {}, group.members().size()});
+    grown_.groups.push_back({part, {}, std::max(most, part.members().size())});
+  grown_.groups.push_back({group, {}, std::max(most, group.members().size())});
 }
 
 /** Members disconnected from the rest by the link test leave the group. */

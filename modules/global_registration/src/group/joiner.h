@@ -19,8 +19,7 @@ namespace pcl6d::global_registration {
 struct JoinedGroup {
   ScanGroup scans;
   Rejection rejection;
-  std::size_t most =
-      0; ///< number of its scans; more if all scans had been at its disposal
+  std::size_t most = 0; ///< number of scans that it could have; of all, if not known
 };
 
 /** \brief One run of joinScans(); scans in the order of their content. */
@@ -81,11 +80,15 @@ private:
   void
   testAgain();
   void
+  growGroups();
+  void
   growKnown();
   void
   addLargest(const PlaceHypothesis& seed);
   void
-  addGrown(const PlaceHypothesis& seed);
+  addGrown(const PlaceHypothesis& seed, std::size_t most);
+  std::size_t
+  sizeOfLargest() const;
   void
   cutDisconnected(ScanGroup& group);
   std::size_t

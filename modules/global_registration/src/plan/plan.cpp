@@ -228,8 +228,9 @@ private:
   {
     constexpr double kSquare = 9, kAll = (2 * kAround + 1) * (2 * kAround + 1);
     const double here = square(x);
-    const double around = left_[static_cast<std::size_t>(x + kAround + 1)] -
-                          left_[static_cast<std::size_t>(x - kAround)] - here;
+    constexpr auto kReach = static_cast<std::size_t>(kAround);
+    const auto i = static_cast<std::size_t>(x);
+    const double around = left_[i + kReach + 1] - left_[i - kReach] - here;
     const double expected = around * kSquare / (kAll - kSquare);
     return (here - expected) / std::sqrt(expected + kSquare);
   }

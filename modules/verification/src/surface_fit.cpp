@@ -11,10 +11,8 @@ namespace pcl6d {
 using verification::FitDirections;
 using verification::Matrix6;
 using verification::MeasuredTwice;
-using verification::PairExtent;
 using verification::PairGrids;
 using verification::SurfacePair;
-using verification::SurfacePairs;
 
 namespace {
 /** Edge of the wide cubes, in cubes of the options: larger than most surfaces of a room. */

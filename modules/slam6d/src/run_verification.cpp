@@ -80,6 +80,14 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
 void
 RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& result)
 {
+  verify(names, false, result);
+}
+
+void
+RunVerification::verify(const std::vector<std::string>& names,
+                        bool is_trial,
+                        Slam6DResult& result)
+{
   std::vector<Verified> map;
   for (const ScanResult& scan : result.scans)
     map.push_back({scan.T_world_scan,
@@ -90,7 +98,7 @@ RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& res
   };
   if (!result.verification ||
       !std::equal(map.begin(), map.end(), verified_.begin(), verified_.end(), isSame)) {
-    result.verification = verdictOn(map, names, result.scans);
+    result.verification = verdictOn(map, names, is_trial, result.scans);
     verified_ = std::move(map);
   }
   takeCovariances(*result.verification, result.scans);
@@ -100,9 +108,7 @@ void
 RunVerification::verifyTrial(const std::vector<std::string>& names,
                              Slam6DResult& result)
 {
-  is_trial_ = true;
-  verify(names, result);
-  is_trial_ = false;
+  verify(names, true, result);
   for (const ScanCheck& scan : result.verification->scans)
     if (!scan.tied)
       verified_.clear(); // the verdict is not complete
@@ -111,13 +117,14 @@ RunVerification::verifyTrial(const std::vector<std::string>& names,
 MapVerification
 RunVerification::verdictOn(const std::vector<Verified>& scans,
                            const std::vector<std::string>& names,
+                           bool is_trial,
                            const std::vector<ScanResult>& results) const
 {
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
   options.num_threads = num_threads_;
   options.sharing = sharing_;
-  options.brief_if_disconnected = is_trial_;
+  options.brief_if_disconnected = is_trial;
   for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);

@@ -67,9 +67,12 @@ private:
     bool is_unsure = false; ///< found without a prior: the pose may be ambiguous
   };
 
+  void
+  verify(const std::vector<std::string>& names, bool is_trial, Slam6DResult& result);
   MapVerification
   verdictOn(const std::vector<Verified>& map,
             const std::vector<std::string>& names,
+            bool is_trial,
             const std::vector<ScanResult>& scans) const;
 
   void
@@ -77,7 +80,6 @@ private:
 
   unsigned int num_threads_;
   WorkSharing* sharing_ = nullptr;
-  bool is_trial_ = false;                        ///< of verifyTrial()
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals
   std::deque<VerifiedScan> scans_;
   std::vector<Verified> verified_; ///< the last time

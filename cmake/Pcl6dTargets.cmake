@@ -80,6 +80,17 @@ function(_pcl6d_library_rules target module)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${module})
 endfunction()
 
+# Optimisation of a library, and the precompiled header that has it. is_cool: COOL of
+# pcl6d_add_module.
+function(_pcl6d_optimise target is_cool)
+  if(is_cool)
+    target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
+    pcl6d_precompile(${target} cool)
+  else()
+    pcl6d_precompile(${target} hot)
+  endif()
+endfunction()
+
 # pcl6d_add_module(NAME BOOK chapters HOLDS text FLOOR n SOURCES ... [ALONE sources ...]
 #                  [DEPENDS module ...] [PCL_COMPONENTS ...] [LINK public targets ...]
 #                  [LINK_PRIVATE targets ...] [COOL] [BATCH n])
@@ -95,12 +106,7 @@ function(pcl6d_add_module name)
   add_library(${target} ${ARG_SOURCES}) # BUILD_SHARED_LIBS says which kind
   _pcl6d_library_rules(${name} ${name})
   _pcl6d_unity(${target} "${ARG_BATCH}" ${ARG_ALONE})
-  if(ARG_COOL)
-    target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
-    pcl6d_precompile(${target} cool)
-  else()
-    pcl6d_precompile(${target} hot)
-  endif()
+  _pcl6d_optimise(${target} ${ARG_COOL})
   set_target_properties(${target} PROPERTIES PCL6D_FLOOR ${ARG_FLOOR})
   target_include_directories(${target}
     PUBLIC
@@ -156,12 +162,7 @@ function(pcl6d_add_part module part)
     VISIBILITY_INLINES_HIDDEN ON)
   _pcl6d_compile_rules(${target})
   _pcl6d_unity(${target} "")
-  if(ARG_COOL)
-    target_compile_options(${target} PRIVATE ${PCL6D_COOL_OPTIMISATION})
-    pcl6d_precompile(${target} cool)
-  else()
-    pcl6d_precompile(${target} hot)
-  endif()
+  _pcl6d_optimise(${target} ${ARG_COOL})
   target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PUBLIC pcl6d_${module} PRIVATE ${ARG_LINK_PRIVATE})
 endfunction()

@@ -3,22 +3,12 @@
 #include "group/joiner.h"
 #include "group/torn_scans.h"
 
-#include <pcl6d/common/parallel.h>
-
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace pcl6d::global_registration {
 
 namespace {
-/** Rounds of tests of each scan against the rest of its group. */
-constexpr int kRechecks = 3;
-
-/** Number of groups that are also grown from all scans. Each takes about as long as the first group,
- * a third of the whole time. */
-constexpr int kGrownAlone = 2;
-
 /** Number of scans of a block, evenly chosen, tested individually at the new pose: a large
  * block then takes no longer than a few scans. */
 constexpr std::size_t kAskedOfBlock = 12;
@@ -166,120 +156,6 @@ Joiner::dropSingles()
   }
 }
 
-/** Tests every group once more, since later scans may contradict its members. */
-void
-Joiner::testAgain()
-{
-  for (JoinedGroup& group : grown_.groups)
-    for (int k = 0; k < kRechecks; ++k) {
-      const bool is_changed = recheck(group.scans);
-      if (grow(group.scans) == 0 && !is_changed)
-        break;
-    }
-}
-
-/** Groups of scans with known poses, and groups from the strongest pairs of the others. */
-void
-Joiner::growGroups()
-{
-  growKnown();
-  const bool has_known = !grown_.groups.empty();
-  for (int round = 0;; ++round) {
-    const auto seed = hypotheses_.strongestBeginning(grown_.joined, grown_.tried);
-    if (!seed)
-      break;
-    if (grown_.groups.empty() || has_known || round > kGrownAlone)
-      addGrown(*seed, scans_.size());
-    else
-      addLargest(*seed);
-  }
-}
-
-/** The groups of scans with known poses, in the order of their numbers. */
-void
-Joiner::growKnown()
-{
-  std::map<std::size_t, ScanGroup> known;
-  for (std::size_t i = 0; i < known_.size(); ++i)
-    if (known_[i]) {
-      known.emplace(known_[i]->group, ScanGroup(scans_))
-          .first->second.add(i, known_[i]->T_group_scan);
-      grown_.joined[i] = true;
-    }
-  for (auto& [number, group] : known) {
-    grow(group);
-    grown_.groups.push_back({group, {}, scans_.size()}); // its scans stay
-  }
-}
-
-/** Grows a group from a seed. A group grown earlier, from a stronger seed, may have begun with two
- * places that look alike, and then lacks the scans that contradict it: if the new group grows larger
- * than any before, with all scans at its disposal, it replaces them. */
-void
-Joiner::addLargest(const PlaceHypothesis& seed)
-{
-  const std::size_t largest = sizeOfLargest();
-  Grown before = std::move(grown_);
-  grown_ = {};
-  grown_.joined.resize(scans_.size());
-  grown_.rejections.resize(scans_.size());
-  grown_.tried = before.tried;
-  addGrown(seed, scans_.size());
-  const std::size_t alone = sizeOfLargest();
-  if (alone > largest)
-    return;
-  grown_ = std::move(before);
-  addGrown(seed, alone);
-}
-
-std::size_t
-Joiner::sizeOfLargest() const
-{
-  std::size_t largest = 0;
-  for (const JoinedGroup& group : grown_.groups)
-    largest = std::max(largest, group.scans.members().size());
-  return largest;
-}
-
-/** \param[in] most number of scans that the group could have */
-void
-Joiner::addGrown(const PlaceHypothesis& seed, std::size_t most)
-{
-  ScanGroup group(scans_);
-  group.add(seed.first, Eigen::Isometry3d::Identity());
-  group.add(seed.second, seed.T_first_second);
-  grown_.tried.insert({seed.first, seed.second});
-  grown_.joined[seed.first] = grown_.joined[seed.second] = true;
-  grow(group);
-  for (int k = 0; k < kRechecks && recheck(group); ++k)
-    grow(group);
-  cutDisconnected(group);
-  const auto parts = splitOff(group,
-                              grown_.joined_by,
-                              hypotheses_,
-                              options_.max_ambiguity,
-                              options_.num_threads);
-  for (const ScanGroup& part : parts)
-    grown_.groups.push_back({part, {}, std::max(most, part.members().size())});
-  grown_.groups.push_back({group, {}, std::max(most, group.members().size())});
-}
-
-/** Members disconnected from the rest by the link test leave the group. */
-void
-Joiner::cutDisconnected(ScanGroup& group)
-{
-  if (group.members().size() < 3)
-    return;
-  for (const auto& [scan, why] :
-       disconnectedOf(group, grown_.joined_by, options_.num_threads)) {
-    if (isKnown(scan))
-      continue;
-    group.remove(scan);
-    grown_.joined[scan] = false;
-    grown_.rejections[scan] = why;
-  }
-}
-
 /** \return the number of a known group; other groups rank last */
 std::size_t
 Joiner::rankOf(const ScanGroup& group) const
@@ -378,95 +254,6 @@ Joiner::contradictionOf(const ScanGroup& block,
                                            PlaceNeeds::kNoContradiction);
   }
   return contradiction;
-}
-
-/** Joins scans while possible. \return the number of joined scans */
-std::size_t
-Joiner::grow(ScanGroup& group)
-{
-  const std::size_t before = group.members().size();
-  std::vector<std::vector<Place>> places(scans_.size());
-  std::vector<bool> is_known(scans_.size(), false), is_refused(scans_.size(), false);
-  while (true) {
-    std::vector<std::size_t> wanted;
-    for (std::size_t u = 0; u < scans_.size(); ++u)
-      if (!grown_.joined[u] && !is_known[u])
-        wanted.push_back(u);
-    parallelFor(wanted.size(), options_.num_threads, [&](std::size_t k) {
-      places[wanted[k]] = placement_.placesOf(wanted[k], group);
-    });
-    for (const std::size_t u : wanted)
-      is_known[u] = true;
-    const std::size_t next = clearest(places, is_refused);
-    if (next == scans_.size())
-      return group.members().size() - before;
-    Settled settled = placement_.settle(next, places[next], group, grown_.links);
-    if (!settled.accepted) {
-      is_refused[next] = true;
-      grown_.rejections[next] = settled.rejection;
-      continue;
-    }
-    join(next, settled, group);
-    for (const std::size_t h : hypotheses_.of(next)) {
-      const PlaceHypothesis& one = hypotheses_.all()[h];
-      const std::size_t other = one.first == next ? one.second : one.first;
-      is_known[other] = is_refused[other] = false;
-    }
-  }
-}
-
-void
-Joiner::join(std::size_t scan, const Settled& settled, ScanGroup& group)
-{
-  grown_.joined_by[scan] = group.members()[settled.best.support.met.front()].scan;
-  group.add(scan, settled.best.T_group_scan);
-  grown_.joined[scan] = true;
-  grown_.rejections[scan] = {};
-  grown_.links.insert(grown_.links.end(), settled.links.begin(), settled.links.end());
-}
-
-/** \return the scan with the best pose among scans neither joined nor rejected */
-std::size_t
-Joiner::clearest(const std::vector<std::vector<Place>>& places,
-                 const std::vector<bool>& is_refused) const
-{
-  std::size_t best = scans_.size();
-  for (std::size_t u = 0; u < scans_.size(); ++u)
-    if (!grown_.joined[u] && !is_refused[u] && !places[u].empty() &&
-        (best == scans_.size() ||
-         places[u].front().support.score > places[best].front().support.score))
-      best = u;
-  return best;
-}
-
-/** Tests each member against the rest; members with an unclear pose leave the group.
- * \return whether any member left */
-bool
-Joiner::recheck(ScanGroup& group)
-{
-  bool is_changed = false;
-  const std::vector<PlacedScan> members = group.members();
-  for (std::size_t k = 0; k < members.size() && group.members().size() > 2; ++k) {
-    const std::size_t scan = members[k].scan;
-    if (k == 0 || isKnown(scan))
-      continue; // defines the frame of the group
-    auto places = placement_.placesOf(scan, group);
-    if (places.empty())
-      continue;
-    const Settled settled = placement_.settle(scan, places, group, grown_.links);
-    if (settled.accepted && areSamePlace(settled.best.T_group_scan,
-                                         members[k].T_group_scan,
-                                         scans_[scan]->cell())) {
-      continue;
-    }
-    group.remove(scan);
-    grown_.joined[scan] = false;
-    grown_.rejections[scan] = settled.accepted
-                                  ? Rejection(RejectReason::kBetterPoseElsewhere)
-                                  : settled.rejection;
-    is_changed = true;
-  }
-  return is_changed;
 }
 
 } // namespace pcl6d::global_registration

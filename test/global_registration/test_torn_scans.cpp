@@ -10,6 +10,8 @@
 using pcl6d::global_registration::inTreeOrder;
 using pcl6d::global_registration::JoinedBy;
 using pcl6d::global_registration::partBehind;
+using pcl6d::global_registration::placedAlike;
+using pcl6d::global_registration::PlacedScan;
 using pcl6d::global_registration::tornScans;
 
 namespace {
@@ -34,6 +36,28 @@ struct Places {
 // 0 - 1 - 2 - 3 - 4 - 5, from 1 on 6 - 7, and others apart
 const JoinedBy kChain = {{2, 1}, {3, 2}, {4, 3}, {5, 4}, {6, 1}, {7, 6}, {12, 11}};
 const std::vector<std::size_t> kScans = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/** Scans one metre apart on a line, seen from a frame of their own. */
+std::vector<PlacedScan>
+onLine(const Scans& scans, const Eigen::Isometry3d& T_frame_line)
+{
+  std::vector<PlacedScan> placed;
+  for (const std::size_t scan : scans)
+    placed.push_back(
+        {scan, T_frame_line * Eigen::Translation3d(static_cast<double>(scan), 0, 0)});
+  return placed;
+}
+
+const Eigen::Isometry3d kOtherFrame =
+    Eigen::Translation3d(5, -3, 1) * Eigen::AngleAxisd(2.0, Eigen::Vector3d::UnitZ());
+
+Scans
+alikeOf(const std::vector<PlacedScan>& group, const std::vector<PlacedScan>& other)
+{
+  return placedAlike(group, other, [](std::size_t, const auto& a, const auto& b) {
+    return a.isApprox(b, 1e-9);
+  });
+}
 } // namespace
 
 TEST(TornScans, AreNoneWhereNoOtherGroupHasAPlace)
@@ -106,4 +130,28 @@ TEST(InTreeOrder, LosesNoScanWhereOneWasJoinedAnewByWayOfWhatFollowedIt)
   const JoinedBy cycle = {{2, 1}, {1, 2}, {3, 3}, {4, 99}};
   EXPECT_EQ(inTreeOrder({0, 2, 1, 3, 4}, cycle),
             (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(PlacedAlike, IsWhatTwoGroupsPlaceTheSameWayInFramesOfTheirOwn)
+{
+  const auto group = onLine({0, 1, 2, 3, 4, 5}, Eigen::Isometry3d::Identity());
+  EXPECT_EQ(alikeOf(group, onLine({2, 3, 4, 5, 8}, kOtherFrame)), (Scans{2, 3, 4, 5}));
+}
+
+TEST(PlacedAlike, LeavesOutAScanThatIsElsewhere)
+{
+  const auto group = onLine({0, 1, 2, 3, 4, 5}, Eigen::Isometry3d::Identity());
+  auto other = onLine({1, 2, 3, 4, 8}, kOtherFrame);
+  other[1].T_group_scan.translate(Eigen::Vector3d(0, 0.5, 0));
+  EXPECT_EQ(alikeOf(group, other), (Scans{1, 3, 4}));
+}
+
+TEST(PlacedAlike, IsNothingWhereMostOfTheOtherGroupIsNotInTheFirst)
+{
+  const auto group = onLine({0, 1, 2, 3, 4, 5}, Eigen::Isometry3d::Identity());
+  // The rest of another branch, and two scans that the first group has drawn to itself.
+  EXPECT_EQ(alikeOf(group, onLine({4, 5, 10, 11}, kOtherFrame)), Scans{});
+  EXPECT_EQ(alikeOf(group, onLine({10, 11}, kOtherFrame)), Scans{});
+  EXPECT_EQ(alikeOf(group, {}), Scans{});
+  EXPECT_EQ(alikeOf({}, group), Scans{});
 }

@@ -17,6 +17,17 @@ constexpr int kRechecks = 3;
 /** Number of groups that are also grown from all scans. Each takes about as long as the first group,
  * a third of the whole time. */
 constexpr int kGrownAlone = 2;
+
+/** \return the scans of the largest group, and their poses */
+std::vector<PlacedScan>
+largestOf(const std::vector<JoinedGroup>& groups)
+{
+  std::vector<PlacedScan> largest;
+  for (const JoinedGroup& group : groups)
+    if (group.scans.members().size() > largest.size())
+      largest = group.scans.members();
+  return largest;
+}
 } // namespace
 
 /** Groups of scans with known poses, and groups from the strongest pairs of the others. */
@@ -24,13 +35,12 @@ void
 Joiner::growGroups()
 {
   growKnown();
-  const bool has_known = !grown_.groups.empty();
   for (int round = 0;; ++round) {
     const auto seed = hypotheses_.strongestBeginning(grown_.joined, grown_.tried);
     if (!seed)
       break;
-    if (grown_.groups.empty() || has_known || round > kGrownAlone)
-      addGrown(*seed, scans_.size());
+    if (hasKnown() || round > kGrownAlone)
+      addGrown(*seed);
     else
       addLargest(*seed);
   }
@@ -49,7 +59,7 @@ Joiner::growKnown()
     }
   for (auto& [number, group] : known) {
     grow(group);
-    grown_.groups.push_back({group, {}, scans_.size()}); // its scans stay
+    grown_.groups.push_back({group, {}, {}});
   }
 }
 
@@ -59,32 +69,34 @@ Joiner::growKnown()
 void
 Joiner::addLargest(const PlaceHypothesis& seed)
 {
-  const std::size_t largest = sizeOfLargest();
-  Grown before = std::move(grown_);
-  grown_ = {};
-  grown_.joined.resize(scans_.size());
-  grown_.rejections.resize(scans_.size());
-  grown_.tried = before.tried;
-  addGrown(seed, scans_.size());
-  const std::size_t alone = sizeOfLargest();
-  if (alone > largest)
-    return;
-  grown_ = std::move(before);
-  addGrown(seed, alone);
+  Grown alone = grownAlone(seed);
+  auto& scans = alone.groups.back().alone;
+  if (scans->size() > largestOf(grown_.groups).size())
+    grown_ = std::move(alone);
+  else
+    addGrown(seed, std::move(scans));
 }
 
-std::size_t
-Joiner::sizeOfLargest() const
+/** Grows a group from a seed as if there were no other. \return the group, last, and what it
+ * was split into */
+Joiner::Grown
+Joiner::grownAlone(const PlaceHypothesis& seed)
 {
-  std::size_t largest = 0;
-  for (const JoinedGroup& group : grown_.groups)
-    largest = std::max(largest, group.scans.members().size());
-  return largest;
+  Grown alone;
+  alone.joined.resize(scans_.size());
+  alone.rejections.resize(scans_.size());
+  alone.tried = grown_.tried;
+  std::swap(grown_, alone);
+  addGrown(seed);
+  std::swap(grown_, alone);
+  alone.groups.back().alone = largestOf(alone.groups);
+  return alone;
 }
 
-/** \param[in] most number of scans that the group could have */
+/** \param[in] alone as JoinedGroup::alone, if known */
 void
-Joiner::addGrown(const PlaceHypothesis& seed, std::size_t most)
+Joiner::addGrown(const PlaceHypothesis& seed,
+                 std::optional<std::vector<PlacedScan>> alone)
 {
   ScanGroup group(scans_);
   group.add(seed.first, Eigen::Isometry3d::Identity());
@@ -101,8 +113,8 @@ Joiner::addGrown(const PlaceHypothesis& seed, std::size_t most)
                               options_.max_ambiguity,
                               options_.num_threads);
   for (const ScanGroup& part : parts)
-    grown_.groups.push_back({part, {}, std::max(most, part.members().size())});
-  grown_.groups.push_back({group, {}, std::max(most, group.members().size())});
+    grown_.groups.push_back({part, {}, {}});
+  grown_.groups.push_back({group, {}, std::move(alone)});
 }
 
 /** Joins scans while possible. \return the number of joined scans */

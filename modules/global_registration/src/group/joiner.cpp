@@ -93,27 +93,21 @@ Joiner::place(std::vector<RankedPair> pairs)
     hypotheses_.add(pairs);
 }
 
-/** Removes members that fit another group as well, if the two groups were not merged, and the
- * other group, grown from all scans, is not much smaller than their own. */
+/** Removes members that have another place in another group, if the two groups were not merged. */
 void
 Joiner::leaveTorn()
 {
   std::vector<std::vector<std::size_t>> groups;
-  std::vector<std::size_t> sizes(scans_.size()); // for each scan: of its group
+  std::vector<const JoinedGroup*> own(scans_.size()); // of each scan
   for (const JoinedGroup& group : grown_.groups) {
     groups.emplace_back();
     for (const PlacedScan& one : group.scans.members()) {
       groups.back().push_back(one.scan);
-      sizes[one.scan] = group.scans.members().size();
+      own[one.scan] = &group;
     }
   }
   const auto has_place = [&](std::size_t scan, std::size_t other) {
-    const JoinedGroup& group = grown_.groups[other];
-    if (isKnown(scan) || !isComparable(group.most, sizes[scan]))
-      return false;
-    const auto places = placement_.placesOf(scan, group.scans);
-    return !places.empty() &&
-           placement_.settle(scan, places, group.scans, grown_.links).accepted;
+    return !isKnown(scan) && isAnotherPlace(scan, *own[scan], grown_.groups[other]);
   };
   const auto torn = tornScans(groups, grown_.joined_by, has_place);
   for (const std::size_t scan : torn) {
@@ -130,12 +124,47 @@ Joiner::leaveTorn()
   dropSingles();
 }
 
-/** \return whether a group of this size is a second explanation of the scans of a group, as a
- * second pose is of a scan */
+/** \return whether a scan of a group has a place in another group that speaks against its own.
+ * The other group does, as a second pose of a scan does, if it is not much smaller where it grows
+ * from all scans, and if it is not the same group, found again: the scans that both place alike
+ * stay. */
 bool
-Joiner::isComparable(std::size_t size, std::size_t own) const
+Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& other)
 {
-  return static_cast<double>(size) > options_.max_ambiguity * static_cast<double>(own);
+  if (!mayExplain(other, own))
+    return false;
+  const auto places = placement_.placesOf(scan, other.scans);
+  if (places.empty() ||
+      !placement_.settle(scan, places, other.scans, grown_.links).accepted)
+    return false;
+  const auto& members = other.scans.members();
+  if (hasKnown() || members.size() < 2)
+    return true;
+  if (!other.alone) {
+    PlaceHypothesis seed;
+    seed.first = members[0].scan;
+    seed.second = members[1].scan;
+    seed.T_first_second = members[0].T_group_scan.inverse() * members[1].T_group_scan;
+    other.alone = grownAlone(seed).groups.back().alone;
+  }
+  const auto are_same =
+      [this](std::size_t one, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+        return areSamePlace(a, b, scans_[one]->cell());
+      };
+  return mayExplain(other, own) &&
+         placedAlike(own.scans.members(), *other.alone, are_same).count(scan) == 0;
+}
+
+/** \return whether a group can be a second explanation of the scans of another: true where that
+ * was not asked */
+bool
+Joiner::mayExplain(const JoinedGroup& other, const JoinedGroup& own) const
+{
+  if (!other.alone)
+    return true;
+  const std::size_t size = std::max(other.scans.members().size(), other.alone->size());
+  return static_cast<double>(size) >
+         options_.max_ambiguity * static_cast<double>(own.scans.members().size());
 }
 
 /** A group with a single remaining scan is dissolved. */
@@ -209,7 +238,8 @@ Joiner::merge(JoinedGroup& to, JoinedGroup& from)
     return false;
   for (const auto& one : from.scans.members())
     to.scans.add(one.scan, T * one.T_group_scan);
-  to.most = std::max({to.most, from.most, to.scans.members().size()});
+  if (to.alone && from.alone && from.alone->size() > to.alone->size())
+    to.alone = std::move(from.alone);
   return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include <pcl6d/global_registration/scan_joiner.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -19,7 +20,8 @@ namespace pcl6d::global_registration {
 struct JoinedGroup {
   ScanGroup scans;
   Rejection rejection;
-  std::size_t most = 0; ///< number of scans that it could have; of all, if not known
+  /** What it has when it grows from all scans, in a frame of its own, once that was asked. */
+  std::optional<std::vector<PlacedScan>> alone;
 };
 
 /** \brief One run of joinScans(); scans in the order of their content. */
@@ -51,6 +53,12 @@ public:
   }
 
   bool
+  hasKnown() const
+  {
+    return std::any_of(
+        known_.begin(), known_.end(), [](const auto& one) { return one.has_value(); });
+  }
+  bool
   isKnown(std::size_t scan) const
   {
     return scan < known_.size() && known_[scan].has_value();
@@ -74,7 +82,9 @@ private:
   void
   leaveTorn();
   bool
-  isComparable(std::size_t size, std::size_t own) const;
+  isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& other);
+  bool
+  mayExplain(const JoinedGroup& other, const JoinedGroup& own) const;
   void
   dropSingles();
   void
@@ -85,10 +95,11 @@ private:
   growKnown();
   void
   addLargest(const PlaceHypothesis& seed);
+  Grown
+  grownAlone(const PlaceHypothesis& seed);
   void
-  addGrown(const PlaceHypothesis& seed, std::size_t most);
-  std::size_t
-  sizeOfLargest() const;
+  addGrown(const PlaceHypothesis& seed,
+           std::optional<std::vector<PlacedScan>> alone = {});
   void
   cutDisconnected(ScanGroup& group);
   std::size_t

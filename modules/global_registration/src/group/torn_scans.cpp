@@ -81,4 +81,32 @@ tornScans(const std::vector<std::vector<std::size_t>>& groups,
   return all;
 }
 
+std::set<std::size_t>
+placedAlike(const std::vector<PlacedScan>& group,
+            const std::vector<PlacedScan>& other,
+            const std::function<bool(std::size_t scan,
+                                     const Eigen::Isometry3d& a,
+                                     const Eigen::Isometry3d& b)>& are_same)
+{
+  std::map<std::size_t, Eigen::Isometry3d> placed; // of the group
+  for (const PlacedScan& one : group)
+    placed[one.scan] = one.T_group_scan;
+  std::set<std::size_t> most;
+  for (const PlacedScan& fixing : other) {
+    const auto at = placed.find(fixing.scan);
+    if (at == placed.end())
+      continue;
+    const Eigen::Isometry3d T_group_other = at->second * fixing.T_group_scan.inverse();
+    std::set<std::size_t> alike;
+    for (const PlacedScan& one : other)
+      if (const auto place = placed.find(one.scan);
+          place != placed.end() &&
+          are_same(one.scan, place->second, T_group_other * one.T_group_scan))
+        alike.insert(one.scan);
+    if (alike.size() > most.size())
+      most = std::move(alike);
+  }
+  return 2 * most.size() > other.size() ? most : std::set<std::size_t>{};
+}
+
 } // namespace pcl6d::global_registration

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "group/joined_by.h"
+#include "group/scan_group.h"
 
 #include <cstddef>
 #include <functional>
@@ -20,5 +21,16 @@ std::set<std::size_t>
 tornScans(const std::vector<std::vector<std::size_t>>& groups,
           const JoinedBy& joined_by,
           const std::function<bool(std::size_t scan, std::size_t group)>& has_place);
+
+/** \brief Compares the poses of scans that are in both of two groups, each with a frame of its own.
+ * \param[in] are_same whether two poses of a scan are equal within its tolerance
+ * \return the most scans whose relative poses are the same in both, if they are more than half of
+ * the second group: it is then the first, found again; else empty */
+std::set<std::size_t>
+placedAlike(const std::vector<PlacedScan>& group,
+            const std::vector<PlacedScan>& other,
+            const std::function<bool(std::size_t scan,
+                                     const Eigen::Isometry3d& a,
+                                     const Eigen::Isometry3d& b)>& are_same);
 
 } // namespace pcl6d::global_registration

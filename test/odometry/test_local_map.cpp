@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -28,6 +30,40 @@ slope(pcl6d::Random& random, std::size_t count = 4000)
     points.push_back(Eigen::Vector3d(x, y, 0.3 * x) + 0.01 * random.normal() * normal);
   }
   return points;
+}
+
+const Eigen::Vector3d kScanner(0.1, 0, 1.6);
+
+/** Points of a scan line on the floor z = 0.1, ahead, with 2 cm of noise along the rays.
+ * \param[in] down [rad] angle below the horizon */
+Places
+lineOnFloor(double down, pcl6d::Random& random)
+{
+  Places points;
+  for (int i = -150; i <= 150; ++i) {
+    const double azimuth = 0.001 * i;
+    const Eigen::Vector3d ray(std::cos(azimuth) * std::cos(down),
+                              std::sin(azimuth) * std::cos(down),
+                              -std::sin(down));
+    const double range = 1.5 / std::sin(down) + 0.02 * random.normal();
+    points.push_back(kScanner + range * ray);
+  }
+  return points;
+}
+
+/** \return the largest angle [rad] between a plane of the map at the line and the floor; none without
+ * a plane */
+std::optional<double>
+tiltAt(const LocalMap& map, double down)
+{
+  std::optional<double> most;
+  for (double y = -0.5; y <= 0.5; y += 0.05) {
+    const auto* found = map.surfaceAt({0.1 + 1.5 / std::tan(down), y, 0.1});
+    if (found && found->shape == VoxelShape::kPlane)
+      most = std::max(most.value_or(0),
+                      std::acos(std::min(1.0, std::abs(found->normal.z()))));
+  }
+  return most;
 }
 } // namespace
 
@@ -90,6 +126,44 @@ TEST(LocalMap, ALineFixesNothingAndABushIsABlob)
   const auto* found = map.surfaceAt({10.4, 10.6, 0.4});
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(found->shape, VoxelShape::kBlob);
+}
+
+TEST(LocalMap, ALineWidenedByTheNoiseOfRangesIsNoPlane)
+{
+  // Its points lie in the cone of the rays, which is thin and would move with the scanner.
+  constexpr double kDown = 0.35;
+  pcl6d::Random random(6);
+  LocalMapOptions small;
+  small.voxel = 0.12;
+  small.levels = 2;
+  LocalMap by_shape(small), by_rays(small);
+  const Places line = lineOnFloor(kDown, random);
+  by_shape.add(line);
+  by_rays.add(line, kScanner);
+  ASSERT_TRUE(tiltAt(by_shape, kDown).has_value());
+  EXPECT_NEAR(*tiltAt(by_shape, kDown), kDown, 0.02);
+  EXPECT_FALSE(tiltAt(by_rays, kDown).has_value());
+  for (const double apart : {-0.01, -0.005, 0.005, 0.01}) // 6 cm on the floor
+    by_rays.add(lineOnFloor(kDown + apart, random), kScanner);
+  ASSERT_TRUE(tiltAt(by_rays, kDown).has_value());
+  EXPECT_LT(*tiltAt(by_rays, kDown), 0.1);
+}
+
+TEST(LocalMap, PlanesSeenAtRightAnglesAreTheSameWithTheScanner)
+{
+  pcl6d::Random random(7);
+  LocalMap without, with;
+  const Places points = slope(random);
+  without.add(points);
+  with.add(points, Eigen::Vector3d(-3, 0, 10));
+  for (double x = -1.8; x < 1.8; x += 0.1) {
+    const auto* expected = without.surfaceAt({x, 0.3, 0.3 * x});
+    const auto* found = with.surfaceAt({x, 0.3, 0.3 * x});
+    ASSERT_NE(expected, nullptr);
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->normal, expected->normal);
+    EXPECT_EQ(found->variance, expected->variance);
+  }
 }
 
 TEST(LocalMap, DropsWhatIsFarAndStaysBounded)

@@ -24,6 +24,11 @@ constexpr double kFlatness = 5;
  * variance of a few dozen points varies by this factor between equal surfaces. */
 constexpr double kSameVariance = 1.5;
 
+/** Least ratio of a plane's spread as the scanner sees it, which the noise of ranges does not widen,
+ * to the spread across: a single scan line has 1, two lines or more have the ratio of their distance
+ * to the noise. */
+constexpr double kSeenFlatness = 2;
+
 constexpr int kMostLevels = 8;
 
 /** Voxels are numbered up to 2^20 either way (voxelKey()); the outermost voxel is left out. */
@@ -33,6 +38,19 @@ Eigen::Vector3d
 centreOf(VoxelKey key, double edge)
 {
   return voxelCentre(key, edge).cast<double>();
+}
+
+/** \return [m^2] the smaller variance of points at right angles to their rays: of a single scan line,
+ * about 0
+ * \param[in] spread the lower triangle of their covariance */
+double
+varianceAcrossRays(const Eigen::Matrix3d& spread, const Eigen::Vector3d& ray)
+{
+  const Eigen::Vector3d a = ray.unitOrthogonal(), b = ray.cross(a);
+  const Eigen::Vector3d of_a = spread.selfadjointView<Eigen::Lower>() * a,
+                        of_b = spread.selfadjointView<Eigen::Lower>() * b;
+  const double aa = a.dot(of_a), ab = a.dot(of_b), bb = b.dot(of_b);
+  return 0.5 * (aa + bb - std::hypot(aa - bb, 2 * ab));
 }
 } // namespace
 
@@ -98,7 +116,8 @@ LocalMap::shift(const Sums& from, const Eigen::Vector3d& offset, Sums& to)
 }
 
 void
-LocalMap::add(const std::vector<Eigen::Vector3d>& points)
+LocalMap::add(const std::vector<Eigen::Vector3d>& points,
+              const std::optional<Eigen::Vector3d>& scanner)
 {
   std::vector<Fresh> fresh, above;
   Level& finest = levels_.front();
@@ -123,13 +142,15 @@ LocalMap::add(const std::vector<Eigen::Vector3d>& points)
               freshSums(around, next, above));
       }
       level.fresh[sums.number] = 0;
-      take(sums, level);
+      take(sums, scanner, level);
     }
   }
 }
 
 void
-LocalMap::take(const Fresh& fresh, Level& level) const
+LocalMap::take(const Fresh& fresh,
+               const std::optional<Eigen::Vector3d>& scanner,
+               Level& level) const
 {
   Voxel& voxel = level.voxels[fresh.number];
   Sums& sums = voxel.sums;
@@ -140,8 +161,12 @@ LocalMap::take(const Fresh& fresh, Level& level) const
   sums.count = kept * sums.count + weight * added.count;
   sums.first = kept * sums.first + weight * added.first;
   sums.second = kept * sums.second + weight * added.second;
-  level.surfaces[fresh.number] =
-      surfaceOf(sums, centreOf(voxel.key, level.edge), level.edge);
+  const Eigen::Vector3d centre = centreOf(voxel.key, level.edge);
+  if (scanner)
+    sums.rays = kept * sums.rays +
+                weight * added.count *
+                    (centre + added.first / added.count - *scanner).stableNormalized();
+  level.surfaces[fresh.number] = surfaceOf(sums, centre, level.edge);
 }
 
 MapSurface
@@ -161,7 +186,10 @@ LocalMap::surfaceOf(const Sums& sums, const Eigen::Vector3d& centre, double edge
     return surface;
   // Three parameters were fitted to the points.
   const double across = std::max(0.0, axes.values(0)) * sums.count / (sums.count - 3);
-  if (across * kFlatness * kFlatness <= axes.values(1)) {
+  const bool is_line =
+      !sums.rays.isZero(0) && varianceAcrossRays(spread, sums.rays.stableNormalized()) <
+                                  kSeenFlatness * kSeenFlatness * across;
+  if (across * kFlatness * kFlatness <= axes.values(1) && !is_line) {
     surface.shape = VoxelShape::kPlane;
     surface.normal = axes.vectors.col(0);
     surface.variance = across;

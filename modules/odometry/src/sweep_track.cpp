@@ -276,8 +276,8 @@ SweepTracker::Track::addToMap(const Current& now, const SweepMotion& motion)
 {
   const auto points =
       odometry::thinned(now.span.points, kMapThinning * map_->options().voxel);
-  map_->add(odometry::placesOf(points, motion, options_.num_threads));
   const Eigen::Vector3d here = motion.begin.translation();
+  map_->add(odometry::placesOf(points, motion, options_.num_threads), here);
   constexpr double kCutAfter = 0.1; // of the reach: voxels are dropped now and then
   if ((here - cut_at_).norm() < kCutAfter * reach_)
     return;

@@ -64,9 +64,12 @@ public:
   explicit LocalMap(const LocalMapOptions& options = {});
 
   /** \brief Adds the points of a sweep [m, world]; points that are not finite, or farther than 2^20
-   * voxels from the origin, are left out. */
+   * voxels from the origin, are left out.
+   * \param[in] scanner its position during the sweep [m, world]: a single scan line, widened along
+   * the rays by the noise of the ranges, is then not taken for a plane; missing: not known */
   void
-  add(const std::vector<Eigen::Vector3d>& points);
+  add(const std::vector<Eigen::Vector3d>& points,
+      const std::optional<Eigen::Vector3d>& scanner = std::nullopt);
 
   /** \brief Drops the voxels with a centre farther than a distance [m] from a place. */
   void
@@ -111,6 +114,8 @@ private:
     Eigen::Vector3d first = Eigen::Vector3d::Zero();
     /** xx, xy, xz, yy, yz, zz */
     Eigen::Matrix<double, 6, 1> second = Eigen::Matrix<double, 6, 1>::Zero();
+    Eigen::Vector3d rays =
+        Eigen::Vector3d::Zero(); ///< sum of unit vectors; zero: not known
   };
   struct Voxel {
     VoxelKey key = 0;
@@ -137,7 +142,9 @@ private:
   static void
   shift(const Sums& from, const Eigen::Vector3d& offset, Sums& to);
   void
-  take(const Fresh& fresh, Level& level) const;
+  take(const Fresh& fresh,
+       const std::optional<Eigen::Vector3d>& scanner,
+       Level& level) const;
   static MapSurface
   surfaceOf(const Sums& sums, const Eigen::Vector3d& centre, double edge);
 

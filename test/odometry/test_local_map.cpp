@@ -135,7 +135,7 @@ TEST(LocalMap, ALineWidenedByTheNoiseOfRangesIsNoPlane)
   pcl6d::Random random(6);
   LocalMapOptions small;
   small.voxel = 0.12;
-  small.levels = 2;
+  small.levels = 3;
   LocalMap by_shape(small), by_rays(small);
   const Places line = lineOnFloor(kDown, random);
   by_shape.add(line);
@@ -143,8 +143,9 @@ TEST(LocalMap, ALineWidenedByTheNoiseOfRangesIsNoPlane)
   ASSERT_TRUE(tiltAt(by_shape, kDown).has_value());
   EXPECT_NEAR(*tiltAt(by_shape, kDown), kDown, 0.02);
   EXPECT_FALSE(tiltAt(by_rays, kDown).has_value());
-  for (const double apart : {-0.01, -0.005, 0.005, 0.01}) // 6 cm on the floor
-    by_rays.add(lineOnFloor(kDown + apart, random), kScanner);
+  for (int i = 1; i <= 6; ++i) // 6 cm from line to line on the floor
+    for (const double apart : {-0.005 * i, 0.005 * i})
+      by_rays.add(lineOnFloor(kDown + apart, random), kScanner);
   ASSERT_TRUE(tiltAt(by_rays, kDown).has_value());
   EXPECT_LT(*tiltAt(by_rays, kDown), 0.1);
 }

@@ -16,15 +16,19 @@ constexpr double kLeastPoints = 6;
  * or in a corner of the voxel, spread less than a third of this value and fix no normal. */
 constexpr double kLeastSpread = 0.1;
 
-/** Least ratio of a plane's spread along its directions to the spread across (SurfaceMapOptions),
- * and also of the smaller spread that the scanner sees, which the noise of ranges does not widen: a
- * single scan line has 1, several lines have the ratio of their distance to the noise. Drives with
- * ratios of 1.5, 2, 3 and 5 have the same errors of their steps. */
+/** Least ratio of a plane's spread along its directions to the spread across
+ * (SurfaceMapOptions). */
 constexpr double kFlatness = 5;
 
 /** A larger voxel is taken if its variance is at most this multiple of the smaller voxel's: the
  * variance of a few dozen points varies by this factor between equal surfaces. */
 constexpr double kSameVariance = 1.5;
+
+/** Least ratio of a plane's spread as the scanner sees it, which the noise of ranges does not widen,
+ * to the spread across: a single scan line has 1, several have the ratio of their distance to the
+ * noise; 2 is beyond chance. Drives with 1.5, 2 and 3 have the same errors of their steps; 5 loses
+ * floors seen at a small angle. */
+constexpr double kSeenFlatness = 2;
 
 constexpr int kMostLevels = 8;
 
@@ -183,10 +187,10 @@ LocalMap::surfaceOf(const Sums& sums, const Eigen::Vector3d& centre, double edge
     return surface;
   // Three parameters were fitted to the points.
   const double across = std::max(0.0, axes.values(0)) * sums.count / (sums.count - 3);
-  const double flat = across * kFlatness * kFlatness;
-  const bool is_line = !sums.rays.isZero(0) &&
-                       varianceAcrossRays(spread, sums.rays.stableNormalized()) < flat;
-  if (flat <= axes.values(1) && !is_line) {
+  const bool is_line =
+      !sums.rays.isZero(0) && varianceAcrossRays(spread, sums.rays.stableNormalized()) <
+                                  kSeenFlatness * kSeenFlatness * across;
+  if (across * kFlatness * kFlatness <= axes.values(1) && !is_line) {
     surface.shape = VoxelShape::kPlane;
     surface.normal = axes.vectors.col(0);
     surface.variance = across;

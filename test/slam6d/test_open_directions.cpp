@@ -183,8 +183,7 @@ TEST(OpenDirections, AMeasuredStepFixesTheOpenMotion)
     const pcl6d::ScanResult& scan = slam.result().scans[i];
     EXPECT_EQ(scan.state, i == 3 ? ScanState::kUnconverged : ScanState::kMatched) << i;
     EXPECT_EQ(scan.status, Status::kRankDeficient) << i;
-    EXPECT_TRUE(
-        pcl6d::test::sameBits(scan.T_world_scan, given.scans[i].T_world_scan));
+    EXPECT_TRUE(pcl6d::test::sameBits(scan.T_world_scan, given.scans[i].T_world_scan));
   }
 }
 

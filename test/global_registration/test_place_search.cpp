@@ -96,6 +96,26 @@ TEST(PlaceSearch, FindsHowMuchHigherAScanStands)
   expectNear(found.candidates.front().T_first_second, T);
 }
 
+// Two sparse scans 15 cm apart once had a unique place that was upside down.
+TEST(PlaceSearch, SparseScansOneAfterTheOtherAreNeverUpsideDown)
+{
+  std::size_t unique = 0;
+  for (int k = 0; k < 6; ++k) {
+    SCOPED_TRACE(k);
+    Random random(static_cast<unsigned int>(20 + k));
+    ScannedPair pair; // rays 3 degrees apart: 120 x 33
+    pair.first = PillarRoom().scan(pair.T_world_first, random, 0.0524);
+    const Eigen::Isometry3d T = poseFromEuler({0.15, 0.01 * k, 0}, {0, 0, 0.02 * k});
+    pair.second = PillarRoom().scan(pair.T_world_first * T, random, 0.0524);
+    const PlaceResult found = placed(pair);
+    if (found.answer != PlaceAnswer::kUnique)
+      continue;
+    ++unique;
+    expectNear(found.candidates.front().T_first_second, T, 0.1);
+  }
+  EXPECT_GT(unique, 0U);
+}
+
 TEST(PlaceSearch, TheOtherWayRoundIsTheInverse)
 {
   const ScannedPair pair;

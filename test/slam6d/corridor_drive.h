@@ -33,6 +33,15 @@ corridorWithClosets(Random& random)
   return corridor;
 }
 
+/** \return a room that has nothing to do with the corridor */
+inline PillarRoom
+roomOfElsewhere()
+{
+  PillarRoom room;
+  room.walls = {Eigen::Vector3d(-4, -3, -1), Eigen::Vector3d(3.5, 5, 1.4)};
+  return room;
+}
+
 /** \return what is seen up to 7 m from a pose in a room */
 inline Points
 shortSighted(const PillarRoom& room, const Eigen::Isometry3d& pose, Random& random)

@@ -170,6 +170,23 @@ TEST(OpenDirections, ARestInATunnelChangesNothing)
   expectStraight(run, pcl6d::test::registered(run));
 }
 
+// Tracking saw more than the keyframes do: its step is a measurement, as the match is.
+TEST(OpenDirections, AMeasuredStepFixesTheOpenMotion)
+{
+  const DriftingRun run = tunnelRun();
+  const Slam6DResult given = pcl6d::test::registered(run);
+  pcl6d::Slam6D slam;
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    slam.addScan(run.scans[i], run.odometry[i], "", i != 3);
+  EXPECT_TRUE(slam.optimize());
+  for (std::size_t i = 1; i < run.scans.size(); ++i) {
+    const pcl6d::ScanResult& scan = slam.result().scans[i];
+    EXPECT_EQ(scan.state, i == 3 ? ScanState::kUnconverged : ScanState::kMatched) << i;
+    EXPECT_EQ(scan.status, Status::kRankDeficient) << i;
+    EXPECT_TRUE(pcl6d::test::sameBits(scan.T_world_scan, given.scans[i].T_world_scan));
+  }
+}
+
 /** \return a model of the walls of a hall, and of floor in 16 places, 0.4 % of the points
  * \param[in] patch [m] distance of the places */
 pcl6d::IcpModel

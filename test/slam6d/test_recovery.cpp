@@ -3,7 +3,6 @@
 // turns, scans of elsewhere and pieces that meet the map again later, with exact truth.
 #include "corridor_drive.h"
 #include "recovery/motion_guesses.h"
-#include "recovery/recovery.h"
 #include "registered_run.h"
 #include "support/points.h"
 
@@ -13,11 +12,9 @@
 #include <string>
 #include <vector>
 
-using pcl6d::BadArgument;
 using pcl6d::distanceBetween;
 using pcl6d::MapTrust;
 using pcl6d::poseFromEuler;
-using pcl6d::Progress;
 using pcl6d::Random;
 using pcl6d::RecoveredBy;
 using pcl6d::RecoveryEffort;
@@ -32,6 +29,7 @@ using pcl6d::test::makeCorridorRun;
 using pcl6d::test::movedBy;
 using pcl6d::test::PillarRoom;
 using pcl6d::test::registered;
+using pcl6d::test::roomOfElsewhere;
 
 namespace {
 // Ends of a chain of matches are off by up to half a voxel without any fault, too; wrong places
@@ -83,15 +81,6 @@ carriedAway()
   }
   return run;
 }
-
-/** A room that has nothing to do with the corridor. */
-PillarRoom
-otherRoom()
-{
-  PillarRoom room;
-  room.walls = {Eigen::Vector3d(-4, -3, -1), Eigen::Vector3d(3.5, 5, 1.4)};
-  return room;
-}
 } // namespace
 
 TEST(Recovery, FindsScansBehindAJumpOfTheOdometry)
@@ -132,68 +121,11 @@ TEST(Recovery, IsLeftOutWhereNotWanted)
       5);
 }
 
-TEST(Recovery, EffortsHaveWords)
-{
-  for (const std::string& word : pcl6d::recoveryEffortNames())
-    EXPECT_EQ(toString(pcl6d::recoveryEffortFromName(word)), word);
-  EXPECT_EQ(pcl6d::recoveryEffortNames().size(), 3u);
-  EXPECT_THROW(pcl6d::recoveryEffortFromName("everywhere"), BadArgument);
-  EXPECT_EQ(Slam6DOptions().recovery, RecoveryEffort::kBounded);
-}
-
-TEST(Recovery, BoundedComparesFourScansOfAPiece)
-{
-  DriftingRun run = makeCorridorRun(6, 6, 0);
-  Random random(4);
-  for (int i = 0; i < 6; ++i) { // a piece of another room, 0.3 m apart
-    run.scans.push_back(otherRoom().scan(
-        poseFromEuler({0.3 * i - 0.2, 0, 0}, {0, 0, 0.1}), random, 0.03));
-    run.odometry.push_back(run.odometry.back() * movedBy(0.35));
-  }
-  const auto comparedBy = [&](RecoveryEffort effort) {
-    Slam6DOptions options;
-    options.recovery = effort;
-    std::size_t most = 0; // all scans, or all pairs
-    Slam6D slam(options);
-    slam.setProgressCallback([&](const Progress& now) {
-      if (now.stage == "recovering")
-        most = std::max(most, now.total);
-    });
-    for (std::size_t i = 0; i < run.scans.size(); ++i)
-      slam.addScan(run.scans[i], run.odometry[i]);
-    EXPECT_TRUE(slam.optimize());
-    EXPECT_EQ(slam.result().count(ScanState::kPredicted), 6u);
-    return most;
-  };
-  EXPECT_EQ(comparedBy(RecoveryEffort::kBounded), 4u * 6u);
-  EXPECT_EQ(comparedBy(RecoveryEffort::kThorough), 6u * 6u);
-}
-
-TEST(Recovery, BoundedDoesNotSearchFarWhereRaysConfirmNoLinkAtAll)
-{
-  using pcl6d::slam6d::isLongSearchUseful;
-  using pcl6d::slam6d::RayTest;
-  using pcl6d::slam6d::RejectedMatch;
-  RejectedMatch as_others;
-  as_others.is_unconfirmed = as_others.is_expected = true;
-  as_others.rays = RayTest::kFailed;
-  EXPECT_FALSE(isLongSearchUseful(as_others, RecoveryEffort::kBounded));
-  EXPECT_TRUE(isLongSearchUseful(as_others, RecoveryEffort::kThorough));
-  std::vector<RejectedMatch> others(5, as_others);
-  others[0].is_unconfirmed = false; // not matched at all
-  others[1].is_contradicted = true;
-  others[2].is_expected = false;
-  others[3].rays = RayTest::kUnproven;
-  others[4].rays = RayTest::kConfirming;
-  for (const RejectedMatch& other : others)
-    EXPECT_TRUE(isLongSearchUseful(other, RecoveryEffort::kBounded));
-}
-
 TEST(Recovery, LosesNothingBehindAScanOfElsewhere)
 {
   DriftingRun run = makeCorridorRun(12, 12, 0);
   Random random(4);
-  run.scans[6] = otherRoom().scan(Eigen::Isometry3d::Identity(), random, 0.03);
+  run.scans[6] = roomOfElsewhere().scan(Eigen::Isometry3d::Identity(), random, 0.03);
   run.odometry[6] = run.odometry[5];
   const Slam6DResult result = registered(run);
   expectTruth(result, run, {6});
@@ -221,7 +153,7 @@ TEST(Recovery, PiecesWithoutAPlaceKeepTheirShapeAndAreNamed)
   Random random(4);
   std::vector<std::size_t> lost;
   for (std::size_t i = 6; i < 10; ++i) {
-    run.scans[i] = otherRoom().scan(
+    run.scans[i] = roomOfElsewhere().scan(
         poseFromEuler({0.3 * static_cast<double>(i) - 2, 0, 0}, {0, 0, 0.1}),
         random,
         0.03);
@@ -265,7 +197,7 @@ TEST(Recovery, CanBeCancelledAndGoesOn)
 {
   DriftingRun run = makeCorridorRun(8, 8, 0);
   Random random(4);
-  run.scans[4] = otherRoom().scan(Eigen::Isometry3d::Identity(), random, 0.03);
+  run.scans[4] = roomOfElsewhere().scan(Eigen::Isometry3d::Identity(), random, 0.03);
   Slam6D slam;
   for (std::size_t i = 0; i < run.scans.size(); ++i)
     slam.addScan(run.scans[i], run.odometry[i]);

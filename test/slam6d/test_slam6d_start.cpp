@@ -88,6 +88,42 @@ TEST(Slam6DStart, OrderIsKeptIfItConnectsAllScans)
   }
 }
 
+// Six RGB-D fragments of a room, and five sweeps of a car: the order connects them, while a search in
+// any order lost one.
+TEST(Slam6DStart, ConsecutiveViewsWithANarrowFieldOrFewLinesStartInTheirOrder)
+{
+  for (const bool is_narrow : {true, false}) {
+    SCOPED_TRACE(is_narrow ? "70 degrees" : "16 lines");
+    pcl6d::test::PillarRoom room;
+    room.pillars.emplace_back(Eigen::Vector3d(3.5, 1, -1), Eigen::Vector3d(7, 4, 2));
+    pcl6d::Random random(6);
+    std::vector<Points> scans;
+    std::vector<Eigen::Isometry3d> truth;
+    for (int i = 0; i < 6; ++i) {
+      truth.push_back(pcl6d::planarPose(-1 + 0.15 * i, 0.05 * i - 0.4, 0.1 * i));
+      Points& scan = scans.emplace_back();
+      int line = 0;
+      double last = -10;
+      for (const auto& p : room.scan(truth.back(), random, 0.02)) {
+        const double up = std::atan2(p.z(), std::hypot(p.x(), p.y()));
+        line += up > last + 0.01 ? 1 : 0;
+        last = std::max(last, up);
+        if (is_narrow ? std::abs(std::atan2(p.y(), p.x())) < 0.61 : line % 5 == 0)
+          scan.push_back(p);
+      }
+    }
+    const Slam6DResult result = resultOf(scans);
+    ASSERT_EQ(result.starts.size(), 1U);
+    EXPECT_EQ(result.starts[0].connected, 6U);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      EXPECT_LT(pcl6d::distanceBetween(truth[0].inverse() * truth[i],
+                                       result.scans[i].T_world_scan)
+                    .translation,
+                0.03)
+          << i;
+  }
+}
+
 pcl6d::test::PillarRoom
 otherRoom()
 {

@@ -94,6 +94,23 @@ TEST_F(MapOfARoom, IsGoodAtTheTruth)
   }
 }
 
+TEST_F(MapOfARoom, IsNotProbedUnlessItIsKept)
+{
+  for (const bool is_kept : {true, false}) {
+    std::vector<bool> asked;
+    MapVerifierOptions options;
+    options.is_kept = [&](const std::vector<bool>& connected) {
+      asked = connected;
+      return is_kept;
+    };
+    const MapVerification map = verified(roomPoses(), options);
+    expectSame(map, verified(roomPoses())); // links and trust
+    EXPECT_EQ(asked, std::vector<bool>(kRoomScans, true));
+    for (const auto& scan : map.scans)
+      EXPECT_EQ(scan.noticed.has_value(), is_kept);
+  }
+}
+
 TEST_F(MapOfARoom, JudgesEachScanWithTheOneBeforeAndAFewMore)
 {
   MapVerifierOptions options;

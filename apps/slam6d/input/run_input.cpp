@@ -56,7 +56,7 @@ openInput(const Settings& settings,
           const Interrupt* interrupt)
 {
   if (earlier.areJoined())
-    return {joinedFolder(earlier), {}, std::nullopt, {}};
+    return {joinedFolder(earlier), {}, std::nullopt, {}, {}};
   std::optional<ScanFolder> folder;
   checkOptions([&] { folder.emplace(openScanFiles(settings.inputs, settings.folder)); },
                {{"poses_file", kPosesOption}});
@@ -73,7 +73,8 @@ openInput(const Settings& settings,
   return {*std::move(folder),
           std::move(stages),
           std::move(tracked.drive),
-          std::move(tracked.paths)};
+          std::move(tracked.paths),
+          std::move(tracked.are_steps_measured)};
 }
 
 RunScans
@@ -90,6 +91,7 @@ openScans(const RunInput& input, const Settings& settings, const EarlierRuns& ea
                                     folder.posesAreEstimated() && haveTimes(folder);
   if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
     scans.deskew(settings.interpolation, input.paths);
+  scans.setMeasuredSteps(input.are_steps_measured);
   if (settings.deskew == Deskew::kEstimate)
     scans.estimateMotion();
   scans.filterLines(settings.filter);

@@ -32,6 +32,20 @@ public:
   void
   deskew(MotionInterpolation interpolation, std::vector<Trajectory> paths = {});
 
+  /** \brief Tells which steps tracking measured. \param[in] are_measured one per scan; empty: none */
+  void
+  setMeasuredSteps(std::vector<bool> are_measured)
+  {
+    are_steps_measured_ = std::move(are_measured);
+  }
+
+  /** \return whether surfaces measured the motion from the scan before (Slam6D::addScan()) */
+  bool
+  isStepMeasured(std::size_t i) const
+  {
+    return i < are_steps_measured_.size() && are_steps_measured_[i];
+  }
+
   /** \brief Enables reading of the times of points, to estimate the motion within scans. Reads the
    * first scan to be registered, to detect how times are stored.
    * \throws IoFailed times are missing or broken */
@@ -106,6 +120,7 @@ private:
   const ScanFolder& folder_;
   std::optional<MotionCorrection> correction_; ///< along the initial poses
   std::vector<Trajectory> paths_;              ///< see deskew()
+  std::vector<bool> are_steps_measured_;
   bool estimates_motion_ = false;
   std::optional<MotionCorrection>
       clock_;                 ///< of estimated motion: the stamps of the scans

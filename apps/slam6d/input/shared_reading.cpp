@@ -116,7 +116,8 @@ SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
     return scan.dropped;
   }
   if (i >= folder.numRegistered()) {
-    slam.addScan(scan.points, folder.initialPose(i), folder.title(i));
+    slam.addScan(
+        scan.points, folder.initialPose(i), folder.title(i), scans_.isStepMeasured(i));
     return scan.dropped;
   }
   const ScanResult earlier = earlier_.resultOf(i); // files of runs are called alike

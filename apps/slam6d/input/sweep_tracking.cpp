@@ -182,13 +182,19 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   folder.replacePoses(found.drive->poses, tracked.source());
   const std::vector<std::size_t>& keyframes = tracked.keyframes();
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count) {
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       found.paths.push_back(tracked.path(i));
+      found.are_steps_measured.push_back(tracked.isStepMeasured(i, i));
+    }
     found.drive.reset();
     return found;
   }
-  for (const std::size_t i : keyframes)
+  std::size_t after = 0; // the last keyframe
+  for (const std::size_t i : keyframes) {
     found.paths.push_back(tracked.path(i));
+    found.are_steps_measured.push_back(tracked.isStepMeasured(after, i));
+    after = i + 1;
+  }
   folder.keepOnly(keyframes);
   closeLoopsOfDrive(settings, folder, progress);
   return found;

@@ -123,12 +123,22 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
   lost_.see(i, found.status);
   drive_.poses.push_back(found.T_world_sweep);
   paths_.push_back(pathWithStamp(found));
+  are_measured_.push_back(found.status == SweepStatus::kTracked && !is_open_);
   num_lost_ += is_lost_ ? 1 : 0;
   if (is_lost_ && !has_given_)
     drive_.lost.push_back(folder_.index(i));
   else if (is_lost_ || found.is_keyframe || found.status == SweepStatus::kFirst ||
            i + 1 == folder_.size())
     keyframes_.push_back(i);
+}
+
+bool
+TrackedDrive::isStepMeasured(std::size_t first, std::size_t last) const
+{
+  for (std::size_t i = first; i <= last; ++i)
+    if (!are_measured_[i])
+      return false;
+  return true;
 }
 
 DriveResult

@@ -83,6 +83,12 @@ public:
     return paths_.at(i);
   }
 
+  /** \return whether surfaces measured all motions of each of these sweeps, relative to the sweep
+   * before: none was lost, began a map, or left a direction free
+   * \param[in] first, last numbers in the folder, both included */
+  bool
+  isStepMeasured(std::size_t first, std::size_t last) const;
+
   /** \return the number of sweeps without a match so far */
   std::size_t
   numLost() const
@@ -102,6 +108,7 @@ private:
   LostSweeps lost_;
   DriveResult drive_; ///< in the world of the tracker
   std::vector<Trajectory> paths_;
+  std::vector<bool> are_measured_; ///< the motion of each sweep from that before
   std::vector<std::size_t> keyframes_;
   std::optional<std::size_t> first_; ///< first sweep of a map, without motion so far
   bool is_lost_ = false, is_open_ = false; ///< the sweep before

@@ -80,12 +80,12 @@ RunVerification::prepare(const std::deque<IcpModel>& reduced,
 void
 RunVerification::verify(const std::vector<std::string>& names, Slam6DResult& result)
 {
-  verify(names, false, result);
+  verify(names, {}, result);
 }
 
 void
 RunVerification::verify(const std::vector<std::string>& names,
-                        bool is_trial,
+                        const MapIsKept& is_kept,
                         Slam6DResult& result)
 {
   std::vector<Verified> map;
@@ -98,7 +98,7 @@ RunVerification::verify(const std::vector<std::string>& names,
   };
   if (!result.verification ||
       !std::equal(map.begin(), map.end(), verified_.begin(), verified_.end(), isSame)) {
-    result.verification = verdictOn(map, names, is_trial, result.scans);
+    result.verification = verdictOn(map, names, is_kept, result.scans);
     verified_ = std::move(map);
   }
   takeCovariances(*result.verification, result.scans);
@@ -106,25 +106,29 @@ RunVerification::verify(const std::vector<std::string>& names,
 
 void
 RunVerification::verifyTrial(const std::vector<std::string>& names,
+                             const MapIsKept& is_kept,
                              Slam6DResult& result)
 {
-  verify(names, true, result);
-  for (const ScanCheck& scan : result.verification->scans)
-    if (!scan.tied)
-      verified_.clear(); // the verdict is not complete
+  bool is_complete = true;
+  const auto ask = [&](const std::vector<bool>& connected) {
+    return is_complete = is_kept(connected);
+  };
+  verify(names, ask, result);
+  if (!is_complete)
+    verified_.clear();
 }
 
 MapVerification
 RunVerification::verdictOn(const std::vector<Verified>& scans,
                            const std::vector<std::string>& names,
-                           bool is_trial,
+                           const MapIsKept& is_kept,
                            const std::vector<ScanResult>& results) const
 {
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
   options.num_threads = num_threads_;
   options.sharing = sharing_;
-  options.brief_if_disconnected = is_trial;
+  options.is_kept = is_kept;
   for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);

@@ -10,11 +10,15 @@
 #include <pcl6d/verification/verified_scan.h>
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pcl6d::slam6d {
+
+/** \return whether a map is kept, given for each scan whether it is connected */
+using MapIsKept = std::function<bool(const std::vector<bool>& connected)>;
 
 /** The verdict on the map of a run. Keeps the scans as rays and surfaces from the time their
  * measured points are available until all poses are known. */
@@ -56,9 +60,12 @@ public:
   void
   verify(const std::vector<std::string>& names, Slam6DResult& result);
 
-  /** Verifies a map that is compared with others: briefly, if it does not connect all scans. */
+  /** Verifies a map that is compared with another: briefly, if it is not kept.
+   * \param[in] is_kept asked with the connected scans */
   void
-  verifyTrial(const std::vector<std::string>& names, Slam6DResult& result);
+  verifyTrial(const std::vector<std::string>& names,
+              const MapIsKept& is_kept,
+              Slam6DResult& result);
 
 private:
   /** Input of a verdict, for each scan. */
@@ -68,11 +75,13 @@ private:
   };
 
   void
-  verify(const std::vector<std::string>& names, bool is_trial, Slam6DResult& result);
+  verify(const std::vector<std::string>& names,
+         const MapIsKept& is_kept,
+         Slam6DResult& result);
   MapVerification
   verdictOn(const std::vector<Verified>& map,
             const std::vector<std::string>& names,
-            bool is_trial,
+            const MapIsKept& is_kept,
             const std::vector<ScanResult>& scans) const;
 
   void

@@ -23,12 +23,13 @@ Slam6D::operator=(Slam6D&&) noexcept = default;
 void
 Slam6D::addScan(const Points& points,
                 const Eigen::Isometry3d& initial_pose,
-                const std::string& name)
+                const std::string& name,
+                bool is_step_measured)
 {
   ScanResult scan;
   scan.initial_pose = initial_pose;
   scan.T_world_scan = initial_pose;
-  implementation_->addStill(points, scan, name);
+  implementation_->addStill(points, scan, name, is_step_measured);
 }
 
 void

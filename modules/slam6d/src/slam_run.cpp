@@ -37,7 +37,10 @@ requireTimes(const std::string& name,
 } // namespace
 
 void
-SlamRun::addScan(const Points& points, ScanResult scan, const std::string& given_name)
+SlamRun::addScan(const Points& points,
+                 ScanResult scan,
+                 const std::string& given_name,
+                 bool is_step_measured)
 {
   auto& scans = state_.result.scans;
   const std::size_t place = scans.size();
@@ -53,10 +56,12 @@ SlamRun::addScan(const Points& points, ScanResult scan, const std::string& given
   scans.push_back(scan);
   if (scan.state == ScanState::kPending)
     state_.predict(place);
-  state_.scans.add(points, name);
+  state_.scans.add(points, name, is_step_measured);
   const std::uint64_t before = place > 0 ? state_.inputs.back() : 0;
   state_.inputs.push_back(
-      context.isFirst() ? inputsOf(before, place, points, scans.back()) : 0);
+      context.isFirst()
+          ? inputsOf(before, place, points, scans.back(), is_step_measured)
+          : 0);
   try {
     if (state_.scans.isFull(state_.map.has_value()))
       prepareWaiting(state_, nullptr);
@@ -71,10 +76,11 @@ SlamRun::addScan(const Points& points, ScanResult scan, const std::string& given
 void
 SlamRun::addStill(const Points& points,
                   const ScanResult& scan,
-                  const std::string& given_name)
+                  const std::string& given_name,
+                  bool is_step_measured)
 {
   addUndone(true);
-  addScan(points, scan, given_name);
+  addScan(points, scan, given_name, is_step_measured);
   if (!state_.options.motion.keep_still)
     return;
   last_still_.emplace_back(points, state_.result.scans.back().T_world_scan);
@@ -119,7 +125,7 @@ SlamRun::addUndone(bool all)
   for (MotionStage::Ready& ready : deskewed) {
     ScanResult scan;
     scan.initial_pose = scan.T_world_scan = ready.pose;
-    addScan(ready.points, scan, ready.name);
+    addScan(ready.points, scan, ready.name, false);
   }
 }
 

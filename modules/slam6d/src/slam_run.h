@@ -21,9 +21,13 @@ public:
   {}
 
   /** Adds a static scan after the scans that wait for their motion.
-   * \param[in] scan with the initial pose; a registered scan with its complete result */
+   * \param[in] scan with the initial pose; a registered scan with its complete result
+   * \param[in] is_step_measured see Slam6D::addScan() */
   void
-  addStill(const Points& points, const ScanResult& scan, const std::string& given_name);
+  addStill(const Points& points,
+           const ScanResult& scan,
+           const std::string& given_name,
+           bool is_step_measured = false);
 
   /** Adds a scan with unknown motion. */
   void
@@ -64,7 +68,10 @@ public:
 
 private:
   void
-  addScan(const Points& points, ScanResult scan, const std::string& given_name);
+  addScan(const Points& points,
+          ScanResult scan,
+          const std::string& given_name,
+          bool is_step_measured);
 
   /** Adds the scans with known motion. \param[in] all no further scans are expected */
   void

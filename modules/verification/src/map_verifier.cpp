@@ -338,9 +338,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     if (!ties.tied[i])
       map.scans[i].doubt = ties.cut_from[i];
   }
-  const bool is_brief =
-      options_.brief_if_disconnected &&
-      std::find(ties.tied.begin(), ties.tied.end(), false) != ties.tied.end();
+  const bool is_brief = options_.is_kept && !options_.is_kept(ties.tied);
   if (!options_.unsure.empty() && !is_brief)
     findTwins(T_world_scan, map);
   if (options_.probe && !is_brief)

@@ -59,16 +59,18 @@ packFields(Unpacker& unpacker, PreparedScan& scan)
 }
 
 void
-KeptScans::add(const Points& points, const std::string& name)
+KeptScans::add(const Points& points, const std::string& name, bool is_step_measured)
 {
   unreduced_.push_back(points);
   names_.push_back(name);
+  are_steps_measured_.push_back(is_step_measured);
 }
 
 void
 KeptScans::forget(std::size_t place)
 {
   names_.resize(place);
+  are_steps_measured_.resize(place);
   if (reduced_.size() + unreduced_.size() > place)
     unreduced_.pop_back();
 }

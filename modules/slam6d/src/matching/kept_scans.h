@@ -42,8 +42,9 @@ public:
     return isFirst() || sharing_->owns(place);
   }
 
+  /** \param[in] is_step_measured see Slam6D::addScan() */
   void
-  add(const Points& points, const std::string& name);
+  add(const Points& points, const std::string& name, bool is_step_measured);
 
   /** Removes the latest scan, whose reduction failed. */
   void
@@ -92,6 +93,13 @@ public:
     return revision_;
   }
 
+  /** \return whether surfaces measured the motion from the scan before (Slam6D::addScan()) */
+  bool
+  isStepMeasured(std::size_t place) const
+  {
+    return are_steps_measured_[place];
+  }
+
   const std::vector<std::string>&
   names() const
   {
@@ -123,6 +131,7 @@ private:
   WorkSharing* sharing_ = nullptr;
   std::size_t revision_ = 0;
   std::vector<std::string> names_;
+  std::vector<bool> are_steps_measured_;
   std::deque<Points> unreduced_; ///< scans without parameters yet
   std::deque<IcpModel> reduced_; ///< a deque: the matcher keeps references to elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next

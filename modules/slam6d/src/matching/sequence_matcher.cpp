@@ -59,6 +59,26 @@ SequenceMatcher::SequenceMatcher(const Slam6DOptions& options,
 void
 SequenceMatcher::match(std::size_t i, std::vector<ScanResult>& scans)
 {
+  matchOrRecover(i, scans);
+  if (isFixedByStep(i, scans))
+    scans[i].state = ScanState::kMatched;
+}
+
+/** \return whether the match leaves a direction open that the measured step from the scan before
+ * fixes */
+bool
+SequenceMatcher::isFixedByStep(std::size_t i,
+                               const std::vector<ScanResult>& scans) const
+{
+  const ScanResult& scan = scans[i];
+  return i > 0 && scans_.isStepMeasured(i) && isRegistered(scans[i - 1]) &&
+         scan.state == ScanState::kUnconverged &&
+         scan.status == Status::kRankDeficient && scan.recovered == RecoveredBy::kNone;
+}
+
+void
+SequenceMatcher::matchOrRecover(std::size_t i, std::vector<ScanResult>& scans)
+{
   ScanResult& scan = scans[i];
   scan.T_world_scan = predictedPose(scans, i);
   if (i == 0)

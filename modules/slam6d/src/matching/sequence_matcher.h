@@ -56,6 +56,10 @@ public:
   recover(const ProgressCallback& report, Slam6DResult& result);
 
 private:
+  void
+  matchOrRecover(std::size_t scan, std::vector<ScanResult>& scans);
+  bool
+  isFixedByStep(std::size_t scan, const std::vector<ScanResult>& scans) const;
   bool
   isDoubtful(const ScanResult& found,
              std::size_t scan,

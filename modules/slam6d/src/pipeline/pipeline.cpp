@@ -51,7 +51,7 @@ stagesOfRun(const AddedStages& added)
   append(added, SlamStage::Place::kAfterRelaxation, list);
   list.push_back(keepInPlane());
   list.push_back(verifyMap());
-  list.push_back(lookAgain(listOf(recoverLost(), relaxGraph(), verifyMap())));
+  list.push_back(lookAgain(listOf(recoverLost()), listOf(relaxGraph())));
   list.push_back(returnUnconfirmed());
   list.push_back(describeMotion());
   list.push_back(adjustToControl());

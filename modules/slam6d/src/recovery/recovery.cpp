@@ -45,10 +45,8 @@ constexpr std::size_t kMatchesOfSearch = 24;
 
 /** Number of long searches without success that are always allowed: a few seconds. */
 constexpr std::size_t kLeastSearches = 2;
+} // namespace
 
-/** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
- * lack features, most of the next scans lack features, too.
- * \param[in] is_bounded limits the time of failed searches to the time of matching */
 bool
 isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded)
 {
@@ -66,7 +64,6 @@ isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_boun
   return is_due(lost) &&
          (!is_bounded || failed < std::max(kLeastSearches, matched / kMatchesOfSearch));
 }
-} // namespace
 
 bool
 isBounded(const Slam6DOptions& options)
@@ -207,11 +204,20 @@ Recovery::guessOptions(std::size_t scan,
   return options;
 }
 
+Rejection
+Recovery::whyUnconfirmable(std::size_t scan) const
+{
+  const VerifiedScan& one = verified_[scan];
+  if (!one.abstains())
+    return {};
+  return one.isOffCentre() ? RejectReason::kOffCentre : RejectReason::kTooFewSurfaces;
+}
+
 std::optional<Recovery::Found>
 Recovery::findByMotion(std::size_t scan, const std::vector<ScanResult>& scans)
 {
   const auto way = motionSinceLast(scan, scans, verified_[scan].voxel());
-  if (!way)
+  if (!way || whyUnconfirmable(scan))
     return std::nullopt;
   const GuessedPlace place =
       placeByGuesses(placeable(scan),
@@ -230,7 +236,7 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
   if (auto found = findByMotion(scan, scans))
     return found;
   const auto way = motionSinceLast(scan, scans, verified_[scan].voxel());
-  if (!way || !isSearchDue(scan, scans, isBounded(options_)))
+  if (!way || whyUnconfirmable(scan) || !isSearchDue(scan, scans, isBounded(options_)))
     return std::nullopt;
   GuessOptions options = guessOptions(scan, scans, way->deviation);
   options.needs = PlaceNeeds::kConnected;
@@ -256,7 +262,8 @@ Recovery::findBefore(const std::vector<std::size_t>& piece,
                      const std::vector<ScanResult>& scans)
 {
   const std::size_t last = piece.back();
-  if (last + 1 >= scans.size() || !isRegistered(scans[last + 1]))
+  if (last + 1 >= scans.size() || !isRegistered(scans[last + 1]) ||
+      whyUnconfirmable(last))
     return std::nullopt;
   const ScanResult& next = scans[last + 1];
   const Eigen::Isometry3d predicted =
@@ -306,6 +313,7 @@ Recovery::findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans)
   join.memory = &pairs_;
   join.num_threads = options_.num_threads;
   const JoinedScans joined = joinScans(list, join);
+  countPlaced(joined.pairs_placed);
   const JoinedScan& placed = joined.scans.back();
   if (placed.group != joined.scans.front().group)
     return std::nullopt;

@@ -43,6 +43,13 @@ struct RejectedMatch {
 PCL6D_EXPORTS bool // exported for its test
 isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);
 
+/** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
+ * lack features, most of the next scans lack features, too.
+ * \param[in] is_bounded limits the time of failed searches to the time of matching
+ * \return whether to search for a lost scan far from its prediction, too */
+PCL6D_EXPORTS bool // exported for its test
+isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded);
+
 /** \brief Recovery of scans without a match at the pose predicted by odometry. Searches by the
  * previous motion, then around the prediction, then without prediction (With a predicted pose, in
  * share/doc/place_recognition.md). Points and rays of the surrounding scans decide. */
@@ -77,6 +84,11 @@ public:
                     const Eigen::Isometry3d& T_world_scan,
                     const std::vector<ScanResult>& scans);
 
+  /** \return why no pose of the scan could be confirmed: it has too few surfaces, or rays contradict
+   * its own points; empty: a search is worth while */
+  Rejection
+  whyUnconfirmable(std::size_t scan) const;
+
   /** \brief Searches for a lost scan only at the poses predicted by odometry and the previous
    * motion, in about the time of a match. Parameters and result as in find(). */
   std::optional<Found>
@@ -108,6 +120,20 @@ public:
     return pairs_;
   }
 
+  /** \brief Counts pairs that a search placed. */
+  void
+  countPlaced(std::size_t pairs)
+  {
+    num_placed_ += pairs;
+  }
+
+  /** \return the number of pairs placed by all searches of the run */
+  std::size_t
+  numPlaced() const
+  {
+    return num_placed_;
+  }
+
 private:
   std::vector<std::size_t>
   around(std::size_t scan,
@@ -132,6 +158,7 @@ private:
   const std::deque<VerifiedScan>& verified_;
   std::deque<std::optional<PlaceableScan>> placeable_; ///< made when first needed
   PairMemory pairs_;
+  std::size_t num_placed_ = 0; ///< pairs, by all searches
 };
 
 } // namespace pcl6d::slam6d

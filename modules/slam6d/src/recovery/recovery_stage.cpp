@@ -23,8 +23,21 @@ constexpr std::size_t kAllCompared = 150, kCompared = 50;
 constexpr std::size_t kLookedForOfPiece = 4, kNeighbours = 12;
 
 /** Matching a pair of scans without prediction takes as long as kMatchesOfPlacement matches (2.5 to
- * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. */
+ * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. Both are for
+ * all searches of a run together. */
 constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
+
+/** \return the result of a search that found no scan a place in the map, which is group 0 */
+JoinedScans
+nothingJoined(const Slam6DResult& result)
+{
+  JoinedScans joined;
+  joined.groups.resize(1);
+  joined.scans.resize(result.scans.size());
+  for (JoinedScan& scan : joined.scans)
+    scan.group = 1;
+  return joined;
+}
 } // namespace
 
 RecoveryStage::RecoveryStage(const Slam6DOptions& options,
@@ -43,7 +56,22 @@ RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
   placeBackwards(pieces, result);
   if (pieces.empty())
     return;
-  take(join(pieces, report, result), pieces, result);
+  const bool is_any_searched =
+      std::any_of(pieces.begin(), pieces.end(), [this](const Piece& piece) {
+        return !whyInVain(piece);
+      });
+  JoinedScans joined = nothingJoined(result);
+  if (is_any_searched)
+    joined = join(pieces, report, result);
+  take(joined, pieces, result);
+}
+
+/** \return why a search for a piece finds nothing: a single scan that no link can confirm; empty:
+ * the piece is searched for */
+Rejection
+RecoveryStage::whyInVain(const Piece& piece) const
+{
+  return piece.size() > 1 ? Rejection() : recovery_.whyUnconfirmable(piece.front());
 }
 
 /** \return the pieces: single lost scans, or consecutive lost scans matched with each other */
@@ -90,6 +118,8 @@ RecoveryStage::askedOf(const std::vector<Piece>& pieces) const
 {
   std::vector<std::size_t> asked;
   for (const Piece& piece : pieces) {
+    if (whyInVain(piece))
+      continue;
     const std::size_t count =
         isBounded(options_) ? std::min(kLookedForOfPiece, piece.size()) : piece.size();
     for (std::size_t k = 0; k < count; ++k) // including the first and the last
@@ -139,11 +169,9 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.num_threads = options_.num_threads;
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);
+  const std::size_t known = countKnown(join);
   if (isBounded(options_))
-    join.max_pairs = std::max(
-        kLeastPlaced,
-        (result.scans.size() - countScans(result.scans, ScanState::kPredicted)) /
-            kMatchesOfPlacement);
+    join.max_pairs = std::max<std::size_t>(1, known + pairsLeft(result));
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));
@@ -154,7 +182,34 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
     if (pieces[p].size() > 1)
       for (const std::size_t i : pieces[p])
         join.known[i] = {p + 1, own_[i].T_world_scan};
-  return joinScans(list, join);
+  JoinedScans joined = joinScans(list, join);
+  recovery_.countPlaced(joined.pairs_placed - std::min(known, joined.pairs_placed));
+  return joined;
+}
+
+/** \return how many pairs the bounded searches of the run may still place */
+std::size_t
+RecoveryStage::pairsLeft(const Slam6DResult& result) const
+{
+  const std::size_t registered =
+      result.scans.size() - countScans(result.scans, ScanState::kPredicted);
+  const std::size_t most = std::max(kLeastPlaced, registered / kMatchesOfPlacement);
+  return most - std::min(most, recovery_.numPlaced());
+}
+
+/** \return how many of the pairs an earlier search placed: they take no time */
+std::size_t
+RecoveryStage::countKnown(const JoinOptions& join)
+{
+  const auto isKnown = [&](std::size_t first, std::size_t second) {
+    return join.memory->candidates({&recovery_.placeable(first).scan(),
+                                    &recovery_.placeable(second).scan()},
+                                   join.max_ambiguity) != nullptr;
+  };
+  std::size_t known = 0;
+  for (const auto& [first, second] : join.pairs)
+    known += isKnown(first, second) || isKnown(second, first) ? 1 : 0;
+  return known;
 }
 
 void
@@ -174,8 +229,9 @@ RecoveryStage::take(const JoinedScans& joined,
                 result);
   for (const Piece& piece : pieces) {
     const JoinedScan& first = joined.scans[piece.front()];
+    const Rejection in_vain = whyInVain(piece);
     if (first.group != 0)
-      layBeside(piece, first.rejection, result);
+      layBeside(piece, in_vain ? in_vain : first.rejection, result);
   }
 }
 

@@ -43,6 +43,12 @@ private:
   join(const std::vector<Piece>& pieces,
        const ProgressCallback& report,
        const Slam6DResult& result);
+  Rejection
+  whyInVain(const Piece& piece) const;
+  std::size_t
+  pairsLeft(const Slam6DResult& result) const;
+  std::size_t
+  countKnown(const JoinOptions& join);
   void
   take(const JoinedScans& joined,
        const std::vector<Piece>& pieces,

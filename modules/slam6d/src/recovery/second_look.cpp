@@ -93,9 +93,10 @@ disconnect(std::size_t keeps, Slam6DResult& result)
 }
 
 bool
-isBetterConnected(const Slam6DResult& now, const Slam6DResult& before)
+isBetterConnected(const std::vector<bool>& connected, std::size_t before)
 {
-  return countConnected(now) > countConnected(before);
+  const auto now = std::count(connected.begin(), connected.end(), true);
+  return static_cast<std::size_t>(now) > before;
 }
 
 bool

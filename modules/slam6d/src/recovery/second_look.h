@@ -4,6 +4,7 @@
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <cstddef>
+#include <vector>
 
 /** \file Handling of a map with disconnected components. */
 namespace pcl6d::slam6d {
@@ -15,7 +16,7 @@ hasDisconnected(const Slam6DResult& result);
 
 /** \return whether more scans would be disconnected from the map than remain: recovering them costs
  * about as much as the run did \param[in] keeps number of first scans left unchanged */
-bool
+PCL6D_EXPORTS bool // exported for its test
 isMostlyDisconnected(std::size_t keeps, const Slam6DResult& result);
 
 /** \brief Marks the scans disconnected from the first scan as lost.
@@ -27,9 +28,10 @@ disconnect(std::size_t keeps, Slam6DResult& result);
 std::size_t
 countConnected(const Slam6DResult& result);
 
-/** \return whether fewer scans are lost or disconnected than before */
+/** \return whether more scans are connected than before
+ * \param[in] connected for each scan; those registered, if not yet verified: at most they are */
 bool
-isBetterConnected(const Slam6DResult& now, const Slam6DResult& before);
+isBetterConnected(const std::vector<bool>& connected, std::size_t before);
 
 /** \return whether a search found the scan after matching had failed, and the verification neither
  * connects it nor has a consistent link of it */

@@ -107,7 +107,10 @@ private:
     const bool is_whole = start.is_complete || isOrderHopeless(state);
     if (start.is_complete) {
       state.result.scans.front().start = InitialGuess::kGlobal; // no measured pose
-      state.verification.verifyTrial(state.scans.names(), state.result);
+      const auto is_kept = [](const std::vector<bool>& connected) {
+        return std::find(connected.begin(), connected.end(), false) == connected.end();
+      };
+      state.verification.verifyTrial(state.scans.names(), is_kept, state.result);
       start = startOf(state.result, InitialGuess::kOdometry);
     }
     state.result.starts = {start};

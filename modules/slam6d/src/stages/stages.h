@@ -54,9 +54,10 @@ StagePtr
 verifyMap();
 
 /** Scans contradicted by the verdict are disconnected and registered again. The result is kept if
- * more scans are connected. \param[in] stages of the new registration */
+ * more scans are connected; it is neither relaxed nor completely verified if it cannot be.
+ * \param[in] recovering, relaxing stages of the new registration */
 StagePtr
-lookAgain(StageList stages);
+lookAgain(StageList recovering, StageList relaxing);
 
 /** Scans that a search found after matching had failed, and that the verdict connects with no
  * others, return to where the given poses lead: one wrong place would take the lost scans behind

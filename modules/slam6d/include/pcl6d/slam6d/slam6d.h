@@ -59,12 +59,16 @@ public:
    * \param[in] points in the scan's own frame, right-handed [m]; NaN points are dropped
    * \param[in] initial_pose rough T_world_scan, e.g. odometry
    * \param[in] name for messages, e.g. its file; empty: "scan 7"
+   * \param[in] is_step_measured the motion of the initial poses from the scan before was measured
+   * by surfaces, without a direction left open (lidar odometry over the sweeps in between): where
+   * the match of both scans leaves a direction open, this motion fixes it
    * \throws BadArgument fewer than 3 finite points, or the pose is not rigid
    * \throws ComputeFailed as optimize() */
   void
   addScan(const Points& points,
           const Eigen::Isometry3d& initial_pose,
-          const std::string& name = "");
+          const std::string& name = "",
+          bool is_step_measured = false);
 
   /** \brief Adds a scan taken in motion. The motion is estimated from the points of this and the
    * neighbouring scans, and the scan is deskewed; initial poses need not contain the motion

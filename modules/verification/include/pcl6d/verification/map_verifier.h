@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +29,9 @@ struct MapVerifierOptions {
   std::vector<bool> unsure;
   /** displaces the most certain link of each scan, to find the detectable shift */
   bool probe = true;
-  /** if any scan is disconnected, neither searches for second poses nor probes: enough to compare
-   * maps */
-  bool brief_if_disconnected = false;
+  /** asked whether the map is kept, given for each scan whether it is connected. If not, the
+   * verifier neither searches for second poses nor probes; empty: the map is kept */
+  std::function<bool(const std::vector<bool>& connected)> is_kept;
   unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
   WorkSharing* sharing = nullptr; ///< between processes; null: none
   /** \throws BadArgument naming the first invalid field, with its value */

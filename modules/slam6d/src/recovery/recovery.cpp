@@ -313,7 +313,6 @@ Recovery::findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans)
   join.memory = &pairs_;
   join.num_threads = options_.num_threads;
   const JoinedScans joined = joinScans(list, join);
-  countPlaced(joined.pairs_placed);
   const JoinedScan& placed = joined.scans.back();
   if (placed.group != joined.scans.front().group)
     return std::nullopt;

@@ -120,20 +120,6 @@ public:
     return pairs_;
   }
 
-  /** \brief Counts pairs that a search placed. */
-  void
-  countPlaced(std::size_t pairs)
-  {
-    num_placed_ += pairs;
-  }
-
-  /** \return the number of pairs placed by all searches of the run */
-  std::size_t
-  numPlaced() const
-  {
-    return num_placed_;
-  }
-
 private:
   std::vector<std::size_t>
   around(std::size_t scan,
@@ -158,7 +144,6 @@ private:
   const std::deque<VerifiedScan>& verified_;
   std::deque<std::optional<PlaceableScan>> placeable_; ///< made when first needed
   PairMemory pairs_;
-  std::size_t num_placed_ = 0; ///< pairs, by all searches
 };
 
 } // namespace pcl6d::slam6d

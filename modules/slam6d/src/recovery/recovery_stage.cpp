@@ -23,8 +23,7 @@ constexpr std::size_t kAllCompared = 150, kCompared = 50;
 constexpr std::size_t kLookedForOfPiece = 4, kNeighbours = 12;
 
 /** Matching a pair of scans without prediction takes as long as kMatchesOfPlacement matches (2.5 to
- * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. Both are for
- * all searches of a run together. */
+ * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. */
 constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
 
 /** \return the result of a search that found no scan a place in the map, which is group 0 */
@@ -169,9 +168,11 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.num_threads = options_.num_threads;
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);
-  const std::size_t known = countKnown(join);
   if (isBounded(options_))
-    join.max_pairs = std::max<std::size_t>(1, known + pairsLeft(result));
+    join.max_pairs = std::max(
+        kLeastPlaced,
+        (result.scans.size() - countScans(result.scans, ScanState::kPredicted)) /
+            kMatchesOfPlacement);
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));
@@ -182,34 +183,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
     if (pieces[p].size() > 1)
       for (const std::size_t i : pieces[p])
         join.known[i] = {p + 1, own_[i].T_world_scan};
-  JoinedScans joined = joinScans(list, join);
-  recovery_.countPlaced(joined.pairs_placed - std::min(known, joined.pairs_placed));
-  return joined;
-}
-
-/** \return how many pairs the bounded searches of the run may still place */
-std::size_t
-RecoveryStage::pairsLeft(const Slam6DResult& result) const
-{
-  const std::size_t registered =
-      result.scans.size() - countScans(result.scans, ScanState::kPredicted);
-  const std::size_t most = std::max(kLeastPlaced, registered / kMatchesOfPlacement);
-  return most - std::min(most, recovery_.numPlaced());
-}
-
-/** \return how many of the pairs an earlier search placed: they take no time */
-std::size_t
-RecoveryStage::countKnown(const JoinOptions& join)
-{
-  const auto isKnown = [&](std::size_t first, std::size_t second) {
-    return join.memory->candidates({&recovery_.placeable(first).scan(),
-                                    &recovery_.placeable(second).scan()},
-                                   join.max_ambiguity) != nullptr;
-  };
-  std::size_t known = 0;
-  for (const auto& [first, second] : join.pairs)
-    known += isKnown(first, second) || isKnown(second, first) ? 1 : 0;
-  return known;
+  return joinScans(list, join);
 }
 
 void

@@ -45,10 +45,6 @@ private:
        const Slam6DResult& result);
   Rejection
   whyInVain(const Piece& piece) const;
-  std::size_t
-  pairsLeft(const Slam6DResult& result) const;
-  std::size_t
-  countKnown(const JoinOptions& join);
   void
   take(const JoinedScans& joined,
        const std::vector<Piece>& pieces,

@@ -6,7 +6,14 @@
 #   --part: modules: all but the tests of programs (test/apps), which are not even built;
 #     programs: these alone
 #   --only build: no tests; --only tests: of what has been built
+#   ctest options: for example -R test_io, -j 2, --rerun-failed (ctest --help)
 set -euo pipefail
+
+fail() {
+  echo "run.sh: error: $1" >&2
+  exit 2
+}
+
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 filter=(--label-exclude slow)
 werror=OFF
@@ -22,35 +29,50 @@ while true; do
       case $part in
         modules) programs=OFF ;;
         programs) ;;
-        *) echo "run.sh: error: --part '$part': must be modules or programs" >&2 && exit 2 ;;
+        *) fail "--part '$part': must be modules or programs" ;;
       esac
       shift ;;
     --only)
       only=${2:-}
       case $only in
         build | tests) ;;
-        *) echo "run.sh: error: --only '$only': must be build or tests" >&2 && exit 2 ;;
+        *) fail "--only '$only': must be build or tests" ;;
       esac
       shift ;;
+    -h | --help)
+      sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+      exit 0 ;;
     *) break ;;
   esac
   shift
 done
+# ctest ignores an option that it does not know: a misspelled one would build and test everything.
+for option in "$@"; do
+  case $option in
+    --all | --werror | --part | --only) fail "$option must stand before the options of ctest" ;;
+    --*)
+      name=${option%%=*}
+      grep -qE -- "$name([ =,]|\$)" <(ctest --help 2>/dev/null) ||
+        fail "unknown option $name (test/run.sh --help)" ;;
+  esac
+done
 cd "$root"
-if [ $only != tests ]; then
+if [ "$only" != tests ]; then
   echo "== 1/3 dependencies"
   cmake/install_dependencies.sh --tests
   echo "== 2/3 build"
   cmake --preset release -D PCL6D_WERROR=$werror -D PCL6D_BUILD_PROGRAM_TESTS=$programs
   cmake --build build/release
 fi
-[ $only != build ] || exit 0
+[ "$only" != build ] || exit 0
+[ -f build/release/CTestTestfile.cmake ] ||
+  fail "nothing is built in $root/build/release: run test/run.sh without --only tests"
 
 tests=build/release
 of_programs=build/release/test/apps
-if [ $part = programs ]; then
+if [ "$part" = programs ]; then
   tests=$of_programs
-elif [ $part = modules ] && [ -f $of_programs/CTestTestfile.cmake ]; then
+elif [ "$part" = modules ] && [ -f $of_programs/CTestTestfile.cmake ]; then
   # Both are built: those of the programs are left out by the names of their test programs.
   names=$(ctest --test-dir $of_programs --show-only |
     sed -n 's/^ *Test *#[0-9]*: \([^.]*\)\..*/\1/p' | sort -u | paste -sd '|')

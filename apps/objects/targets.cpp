@@ -173,7 +173,7 @@ tableOf(const std::vector<NamedTargets>& scans)
       const Eigen::Vector3d place = scan.T_file_near * one.centre;
       text << "# " << scan.scan << ": rejected " << sizeOf(one.kind, one.size) << " at "
            << std::fixed << std::setprecision(2) << place.x() << ' ' << place.y() << ' '
-           << place.z() << ": " << one.reason << '\n';
+           << place.z() << ": " << toWords(one) << '\n';
       text.unsetf(std::ios::floatfield);
     }
   }

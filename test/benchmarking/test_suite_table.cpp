@@ -43,7 +43,7 @@ measured()
   row.cpu_seconds = 20;
   row.peak_memory_mb = 99.6;
   row.runs = 1;
-  row.verdict = "trusted";
+  row.verdict = "reliable";
   return row;
 }
 
@@ -70,7 +70,7 @@ TEST(SuiteTable, MarkdownHasTheBooksMeasuresInMetresAndDegrees)
       "verdict |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n"
       "| A | 2.887 | 4.000 | 0.573 | 0.573 | 2.887 | 5.3889 | 268.000 | 0.500 | "
-      "12.3 | 100 | trusted |\n"
+      "12.3 | 100 | reliable |\n"
       "| B\\|C, \"D\" | - | - | - | - | - | - | - | - | 0.2 | - | failed (exit 1) |\n"
       "\n- B|C, \"D\": scan1.pcd: broken, alas\n");
 }
@@ -110,7 +110,7 @@ TEST(SuiteTable, CsvHasAllColumnsWithEveryDigitAndQuotesTexts)
       "agreement,seconds,cpu_seconds,peak_memory_mb,runs,verdict,message");
   EXPECT_EQ(line(1).substr(0, 9), "street,A,");
   EXPECT_EQ(std::stod(line(1).substr(9)), errors.position_2d.rms) << "all digits";
-  EXPECT_NE(line(1).find(",0.5,12.345,20.0,99.6,1,trusted,"), std::string::npos);
+  EXPECT_NE(line(1).find(",0.5,12.345,20.0,99.6,1,reliable,"), std::string::npos);
   EXPECT_EQ(line(2),
             "street,\"B|C, \"\"D\"\"\",,,,,,,,,,,,,,0.25,,,1,failed (exit 1),"
             "\"scan1.pcd: broken, alas\"");
@@ -128,7 +128,7 @@ TEST(SuiteTable, JsonHasNullWhereThereIsNoNumber)
   EXPECT_NEAR(good["sigma_yaw_rad"], 0.01, 1e-15);
   EXPECT_EQ(good["with_alignment"]["position"]["rms"],
             row.errors->with_alignment.position.rms);
-  EXPECT_EQ(good["verdict"], "trusted");
+  EXPECT_EQ(good["verdict"], "reliable");
   const auto& bad = json["rows"][1];
   EXPECT_TRUE(bad["sigma_position_2d_m"].is_null());
   EXPECT_TRUE(bad["with_alignment"].is_null());

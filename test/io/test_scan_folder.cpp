@@ -144,9 +144,24 @@ TEST_F(ScanFolderTest, FoldersThatCannotBeUsedAreNamed)
   const auto missing = folder_ / "missing";
   expectIoFailed(missing, "no such folder", [&] { ScanFolder{missing}; });
   const auto file = folder_ / "scan0.xyz";
-  expectIoFailed(
-      file, "is a file, but must be a folder of scans", [&] { ScanFolder{file}; });
+  expectIoFailed(file,
+                 "is a file, but must be a folder of scans: give its folder",
+                 [&] { ScanFolder{file}; });
   expectIoFailed(file / "below", "no such folder", [&] { ScanFolder{file / "below"}; });
+}
+
+TEST_F(ScanFolderTest, AFolderWithoutScansNamesTheFolderBelowWithScans)
+{
+  const std::string looked = "no scans found (looked for .pcd .ply .3d .bin .xyz .las "
+                             ".laz .ptx .pts .csv .txt .asc)";
+  std::filesystem::create_directories(folder_ / "b" / "deep");
+  std::filesystem::create_directories(folder_ / "a");
+  add({"a/notes.txt", "b/deep/scan0.ply"});
+  expectMessage(looked + "; scans lie in " + (folder_ / "b" / "deep").string() +
+                ": give this folder");
+  ScanFolderOptions options;
+  options.format = ScanFormat::kUos;
+  expectMessage("no scans found (looked for .3d)", options);
 }
 
 TEST_F(ScanFolderTest, SeveralFormatsNeedAChoice)

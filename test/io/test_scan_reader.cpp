@@ -120,7 +120,8 @@ TEST(ScanReader, AScanWithoutPointsIsEmpty)
 TEST(ScanReader, FilesThatCannotBeReadAreNamedWithTheReason)
 {
   const TempFolder folder;
-  for (const char* const name : {"a.pcd", "a.ply", "a.3d", "a.bin", "a.xyz"}) {
+  for (const char* const name :
+       {"a.pcd", "a.ply", "a.3d", "a.bin", "a.xyz", "a.own", "a"}) {
     expectIoFailed(
         folder / name, "No such file or directory", [&] { readScan(folder / name); });
     std::filesystem::create_directory(folder / name);

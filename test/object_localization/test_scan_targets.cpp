@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 using pcl6d::findTargets;
 using pcl6d::FoundTarget;
 using pcl6d::Points;
+using pcl6d::RejectedTarget;
+using pcl6d::TargetFault;
 using pcl6d::TargetKind;
 using pcl6d::TargetOptions;
 using pcl6d::TargetSearch;
@@ -112,9 +114,9 @@ TEST(ScanTargets, FindsAPartlyHiddenSphereAndNamesOneThatIsMostlyHidden)
   const TargetSearch rest = searchIn(room);
   EXPECT_TRUE(rest.found.empty());
   ASSERT_EQ(rest.rejected.size(), 1U);
-  EXPECT_NE(rest.rejected[0].reason.find("of the visible side have points"),
-            std::string::npos)
-      << rest.rejected[0].reason;
+  EXPECT_EQ(rest.rejected[0].fault, TargetFault::kMostlyHidden);
+  EXPECT_GT(rest.rejected[0].measured, 0.2);
+  EXPECT_LT(rest.rejected[0].measured, 0.5);
 }
 
 TEST(ScanTargets, NamesABallOfAnotherSize)
@@ -122,8 +124,8 @@ TEST(ScanTargets, NamesABallOfAnotherSize)
   const TargetSearch search = searchIn({{{{2, 1, 0.2}, 0.2}}, {}, {}});
   EXPECT_TRUE(search.found.empty());
   ASSERT_EQ(search.rejected.size(), 1U);
-  EXPECT_EQ(search.rejected[0].reason.find("its diameter is 0.2"), 0U)
-      << search.rejected[0].reason;
+  EXPECT_EQ(search.rejected[0].fault, TargetFault::kOtherDiameter);
+  EXPECT_NEAR(search.rejected[0].measured, 0.2, 0.01) << "[m]";
 }
 
 TEST(ScanTargets, NamesABoardAtAGrazingAngleAndASmallerOne)
@@ -136,10 +138,27 @@ TEST(ScanTargets, NamesABoardAtAGrazingAngleAndASmallerOne)
   const TargetSearch grazing = searchIn({{}, {{at, normal.normalized()}}, {}});
   EXPECT_TRUE(grazing.found.empty());
   ASSERT_EQ(grazing.rejected.size(), 1U);
-  EXPECT_EQ(grazing.rejected[0].reason.find("seen at 7"), 0U)
-      << grazing.rejected[0].reason;
+  EXPECT_EQ(grazing.rejected[0].fault, TargetFault::kGrazingAngle);
+  EXPECT_NEAR(grazing.rejected[0].measured, angle, 0.02) << "[rad]";
   const TargetSearch small = searchIn({{}, {{at, ray, 0.1}}, {}});
   EXPECT_TRUE(small.found.empty());
+}
+
+TEST(ScanTargets, NamesEachFaultWithItsNumber)
+{
+  const auto words = [](TargetKind kind, TargetFault fault, double measured) {
+    return toWords(RejectedTarget{kind, 0.15, Vector3d::Zero(), fault, measured});
+  };
+  EXPECT_EQ(words(TargetKind::kSphere, TargetFault::kOtherDiameter, 0.2),
+            "its diameter is 0.200 m");
+  EXPECT_EQ(words(TargetKind::kSphere, TargetFault::kMostlyHidden, 0.31),
+            "only 31 % of the visible side have points");
+  EXPECT_EQ(words(TargetKind::kBoard, TargetFault::kGrazingAngle, 76 * M_PI / 180),
+            "seen at 76 deg, at most 70 deg");
+  EXPECT_EQ(
+      words(TargetKind::kBoard, TargetFault::kSmallerBoard, 0.62),
+      "smaller than 0.15 m: near the border 62 % of the points have the colour of "
+      "their quarter");
 }
 
 TEST(ScanTargets, FindsNoneWhereThereAreNone)

@@ -152,6 +152,19 @@ TEST(RunFolder, DoesNotTakeLinksToNowhereForMissingFiles)
   }
 }
 
+TEST(RunFolder, OfAFinishedRunNeedsASummary)
+{
+  const TempFolder empty;
+  for (const std::filesystem::path& path : {empty.path(), empty / "missing"})
+    try {
+      RunFolder::finished(path, "unfinished");
+      ADD_FAILURE() << path;
+    } catch (const IoFailed& e) {
+      EXPECT_EQ(e.what(),
+                path.string() + ": holds no run of pcl_slam6d (no summary.json)");
+    }
+}
+
 TEST(RunFolder, NoticesFilesThatAreNotThoseOfItsRun)
 {
   const RunFiles files;

@@ -42,18 +42,26 @@ secondOf(const Points& first,
   EXPECT_TRUE(slam.optimize());
   return slam.result().scans[1];
 }
-} // namespace
 
-TEST(Slam6DDoubts, AMatchMustNotLetFewerPointsMeet)
+/** \return options that pair points far apart: ICP pulls the second scan of a TornPair away */
+Slam6DOptions
+tearingOptions()
 {
-  const TornPair pair;
   Slam6DOptions options;
   options.metric = Metric::kPoint;
   options.voxel = 0.1;
   options.max_distance = 3; // far too wide
   options.max_distance_start = 0;
-  options.recovery = RecoveryEffort::kOff; // which finds the place in spite of all that
-  const ScanResult torn = secondOf(pair.first, pair.second, pair.truth, options);
+  options.recovery = RecoveryEffort::kOff; // would find the place in spite of all that
+  return options;
+}
+} // namespace
+
+TEST(Slam6DDoubts, AMatchMustNotLetFewerPointsMeet)
+{
+  const TornPair pair;
+  const ScanResult torn =
+      secondOf(pair.first, pair.second, pair.truth, tearingOptions());
   EXPECT_EQ(torn.status, Status::kOk) << toString(torn.status);
   EXPECT_EQ(torn.state, ScanState::kPredicted);
   const pcl6d::Rejection& lost = torn.rejections.front();
@@ -62,6 +70,24 @@ TEST(Slam6DDoubts, AMatchMustNotLetFewerPointsMeet)
   EXPECT_GT(torn.correction, 0.1) << "which would have been the damage";
   EXPECT_FALSE(torn.covariance);
   EXPECT_LT(pcl6d::distanceBetween(torn.T_world_scan, pair.truth).translation, 1e-12);
+}
+
+TEST(Slam6DDoubts, AnUnregisteredScanIsNotConnectedEvenAtItsTruePose)
+{
+  const TornPair pair;
+  Slam6D slam(tearingOptions());
+  slam.addScan(pair.first, kIdentity);
+  slam.addScan(pair.second, pair.truth);
+  ASSERT_TRUE(slam.optimize());
+  ASSERT_EQ(slam.result().scans[1].state, ScanState::kPredicted);
+  ASSERT_TRUE(slam.result().verification);
+  const pcl6d::MapVerification& map = *slam.result().verification;
+  EXPECT_EQ(map.count(pcl6d::LinkTrust::kGood), 1U) << "the link is tested, and right";
+  EXPECT_TRUE(map.scans[0].tied);
+  EXPECT_FALSE(map.scans[1].tied);
+  EXPECT_FALSE(map.scans[1].bound) << "the bound of a predicted pose is not known";
+  EXPECT_EQ(map.scans[1].doubt.reason, pcl6d::RejectReason::kScanUnregistered);
+  EXPECT_EQ(map.trust, pcl6d::MapTrust::kDoubtful);
 }
 
 TEST(Slam6DDoubts, AMatchThatLetsMorePointsMeetIsBelieved)

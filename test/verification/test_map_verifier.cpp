@@ -241,6 +241,26 @@ TEST_F(MapOfARoom, MirroredOrTurnedByHalfATurnIsDoubtful)
   EXPECT_EQ(verified(turned).trust, MapTrust::kDoubtful);
 }
 
+TEST_F(MapOfARoom, DoesNotConnectAnUnregisteredScanEvenAtTheTruth)
+{
+  MapVerifierOptions options;
+  options.unregistered.assign(kRoomScans, false);
+  EXPECT_EQ(verified(roomPoses(), options).trust, MapTrust::kGood);
+  options.unregistered[2] = true;
+  const MapVerification map = verified(roomPoses(), options);
+  EXPECT_EQ(map.count(LinkTrust::kGood), map.links.size()) << "links are still tested";
+  for (std::size_t i = 0; i < kRoomScans; ++i) {
+    EXPECT_EQ(map.scans[i].tied, i != 2) << i;
+    EXPECT_EQ(map.scans[i].doubt.reason,
+              i == 2 ? RejectReason::kScanUnregistered : RejectReason::kNone)
+        << i;
+  }
+  EXPECT_EQ(map.trust, MapTrust::kDoubtful);
+  ASSERT_EQ(map.doubts.size(), 1U);
+  EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansDisconnected);
+  EXPECT_EQ(map.doubts[0].text, "scan 2");
+}
+
 TEST_F(MapOfARoom, RefusesWrongNumbersOfNamesAndPosesAndLinks)
 {
   EXPECT_EQ(badArgumentOf([&] { MapVerifier(scans->all(), namesOf(2)); }),
@@ -253,6 +273,11 @@ TEST_F(MapOfARoom, RefusesWrongNumbersOfNamesAndPosesAndLinks)
   EXPECT_EQ(
       badArgumentOf([&] { MapVerifier(scans->all(), namesOf(kRoomScans), options); }),
       "links_per_scan = 0, but must be > 0");
+  options = {};
+  options.unregistered.assign(2, true);
+  EXPECT_EQ(
+      badArgumentOf([&] { MapVerifier(scans->all(), namesOf(kRoomScans), options); }),
+      "unregistered = 2, but must be empty or equal to the number of scans");
 }
 
 TEST_F(MapOfARoom, RefusesAPoseThatIsNoMotion)

@@ -2,6 +2,7 @@
 #include "common/app.h"
 #include "common/options/help_text.h"
 #include "common/options/option_table.h"
+#include "common/options/option_words.h"
 #include "common/output/run_files.h"
 
 #include <pcl6d/common/require.h>
@@ -60,6 +61,29 @@ generalOptions()
   general.add_options()("version", "print the version and exit");
   return general;
 }
+
+/** \return the message about an option that no table has, with the option that was perhaps meant */
+std::string
+wordsOfUnknown(po::unknown_option& error, const po::options_description& all)
+{
+  std::vector<std::string> names;
+  for (const auto& option : all.options())
+    names.push_back("--" + option->long_name());
+  const std::string nearest = nearestWord(error.get_option_name(), names);
+  return app::wordsOf(error) +
+         (nearest.empty() ? std::string() : "; did you mean " + nearest + "?");
+}
+
+/** \return the message about a value that cannot be read, with what the option takes */
+std::string
+wordsOfUnreadable(po::invalid_option_value& error, const po::options_description& all)
+{
+  std::string name = error.get_option_name();
+  name.erase(0, name.find_first_not_of('-'));
+  const po::option_description* const option = all.find_nothrow(name, false);
+  return app::wordsOf(error) +
+         (option ? "; it takes: " + option->description() : std::string());
+}
 } // namespace
 
 void
@@ -75,6 +99,10 @@ OptionTable::readArguments(const std::vector<std::string>& arguments)
                   .style(po::command_line_style::unix_style ^ Style::allow_guessing)
                   .run(),
               values_);
+  } catch (po::unknown_option& e) {
+    throw UsageError(wordsOfUnknown(e, all));
+  } catch (po::invalid_option_value& e) {
+    throw UsageError(wordsOfUnreadable(e, all));
   } catch (const po::too_many_positional_options_error&) {
     throw UsageError("too many arguments; expected " + joined(positional_names_, " ") +
                      ", and everything else with the name of its option");

@@ -4,6 +4,7 @@
 #include <boost/program_options/errors.hpp>
 
 #include <string>
+#include <vector>
 
 namespace pcl6d::app {
 
@@ -12,5 +13,10 @@ namespace pcl6d::app {
  * placeholder, such as `--voxel=%value%` */
 std::string
 wordsOf(boost::program_options::error& error);
+
+/** \return the word that needs the fewest changed letters, at most one in three, to become the typed
+ * one; of equal ones the first; empty if none */
+std::string
+nearestWord(const std::string& typed, const std::vector<std::string>& words);
 
 } // namespace pcl6d::app

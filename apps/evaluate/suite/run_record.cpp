@@ -103,7 +103,7 @@ RunRecord::verdict() const
     return "killed (signal " + std::to_string(end.signal) + ")";
   if (!hasResult())
     return "failed (exit " + std::to_string(end.exit_code) + ")";
-  return end.exit_code == 0 ? "trusted" : "not trusted";
+  return end.exit_code == 0 ? "reliable" : "not reliable";
 }
 
 bool

@@ -22,7 +22,7 @@ struct RunRecord {
   bool
   hasResult() const;
 
-  /** \return "trusted", "not trusted", "failed (exit 1)", "timed out" or
+  /** \return "reliable", "not reliable", "failed (exit 1)", "timed out" or
    * "killed (signal 9)" */
   std::string
   verdict() const;

@@ -128,7 +128,7 @@ constexpr ReasonWords kReasons[] = {
     {Reason::kSamePoints, "same-points", "both scans hold the very same points"},
     {Reason::kScanUnregistered,
      "scan-unregistered",
-     "one of its scans could not be matched"},
+     "unregistered scan: its pose is only predicted"},
     {Reason::kContradictsLinks, "contradicts-links", "contradicts the other links"},
     {Reason::kContradictsLoops,
      "contradicts-loops",

@@ -64,12 +64,13 @@ covarianceFrom(const JsonValue& json)
   const double rounding = kRounding * covariance.cwiseAbs().maxCoeff();
   json.require((covariance - covariance.transpose()).cwiseAbs().maxCoeff() <= rounding,
                "symmetric");
-  json.require(symmetricEigenvalues<6>(covariance)[0] >= -rounding, // not of NaN
+  json.require(symmetricEigenvalues<6>(covariance)[0] >= -rounding, // false for NaN
                "a covariance: no variance may be negative");
   return covariance;
 }
 
-/** Reads each visited field. */
+/** Visitor of the fields of a result: reads the value under the name of the field, by the keys of the
+ * file's version. */
 struct Reader {
   const JsonValue& json;
   const SchemaKeys& keys;
@@ -278,7 +279,7 @@ readHead(const JsonValue& json, const SchemaKeys& keys, RunResult& run)
   run.version = (json / "version").text();
   run.world_offset = (json / "world_offset").vector3();
   run.pose_source = (json / "pose_source").text();
-  if (const auto moved = json.find(keys("input_offset"))) // only where points were far
+  if (const auto moved = json.find(keys("input_offset"))) // only of large coordinates
     visitMovedFields(run.moved.emplace(), Reader{*moved, keys});
   const JsonValue verdict = json / "verdict";
   run.trusted = (verdict / keys("reliable")).boolean();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "registered.h"
 #include "run_verification.h"
 
 #include <pcl6d/common/parallel.h>
@@ -43,6 +44,19 @@ isFoundBySearch(RecoveredBy by)
 {
   return by == RecoveredBy::kSearch || by == RecoveredBy::kEverywhere ||
          by == RecoveredBy::kTogether;
+}
+
+/** \return whether a scan was registered or lost since the verdict, and this changes the verdict: lost
+ * scans do not count as connected */
+bool
+isOutdated(const MapVerification& map, const std::vector<ScanResult>& scans)
+{
+  for (std::size_t i = 0; i < map.scans.size(); ++i)
+    if (isRegistered(scans[i])
+            ? map.scans[i].doubt.reason == RejectReason::kScanUnregistered
+            : map.scans[i].tied)
+      return true;
+  return false;
 }
 } // namespace
 
@@ -96,7 +110,7 @@ RunVerification::verify(const std::vector<std::string>& names,
     return a.T_world_scan.matrix() == b.T_world_scan.matrix() &&
            a.is_unsure == b.is_unsure;
   };
-  if (!result.verification ||
+  if (!result.verification || isOutdated(*result.verification, result.scans) ||
       !std::equal(map.begin(), map.end(), verified_.begin(), verified_.end(), isSame)) {
     result.verification = verdictOn(map, names, is_kept, result.scans);
     verified_ = std::move(map);
@@ -133,6 +147,8 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);
   }
+  for (const ScanResult& result : results)
+    options.unregistered.push_back(!isRegistered(result));
   std::vector<std::string> files; // file names without directories, for the text of the
                                   // verdict
   files.reserve(names.size());

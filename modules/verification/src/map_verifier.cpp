@@ -130,10 +130,14 @@ MapVerifier::MapVerifier(const std::deque<VerifiedScan>& scans,
 {
   options_.validate();
   require(names_.size() == scans_.size(), "names", names_.size(), "one per scan");
-  require(options_.unsure.empty() || options_.unsure.size() == scans_.size(),
-          "unsure",
-          options_.unsure.size(),
-          "empty or equal to the number of scans");
+  const auto requireOnePerScan = [&](const char* name, const std::vector<bool>& flags) {
+    require(flags.empty() || flags.size() == scans_.size(),
+            name,
+            flags.size(),
+            "empty or equal to the number of scans");
+  };
+  requireOnePerScan("unsure", options_.unsure);
+  requireOnePerScan("unregistered", options_.unregistered);
   for (const VerifiedScan& scan : scans_)
     centres_.push_back(centreOf(scan.surfaces().points()));
 }
@@ -294,6 +298,25 @@ MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
     }
 }
 
+/** Sets which scans are connected and have usable rays. Links with a predicted pose may be consistent
+ * by chance, or inconclusive: they do not connect the scan. */
+void
+MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) const
+{
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    ScanCheck& scan = map.scans[i];
+    const bool is_unregistered =
+        !options_.unregistered.empty() && options_.unregistered[i];
+    scan.abstains = scans_[i].abstains();
+    scan.off_centre = scans_[i].isOffCentre();
+    scan.tied = ties.tied[i] && !is_unregistered;
+    if (!ties.tied[i])
+      scan.doubt = ties.cut_from[i];
+    else if (is_unregistered)
+      scan.doubt = RejectReason::kScanUnregistered;
+  }
+}
+
 MapVerification
 MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
 {
@@ -331,14 +354,11 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
       map.links[k].trust = LinkTrust::kWeak;
       map.links[k].rejection = ties.cut_from[map.links[k].from];
     }
-  for (std::size_t i = 0; i < scans_.size(); ++i) {
-    map.scans[i].abstains = scans_[i].abstains();
-    map.scans[i].off_centre = scans_[i].isOffCentre();
-    map.scans[i].tied = ties.tied[i];
-    if (!ties.tied[i])
-      map.scans[i].doubt = ties.cut_from[i];
-  }
-  const bool is_brief = options_.is_kept && !options_.is_kept(ties.tied);
+  checkScans(ties, map);
+  std::vector<bool> connected;
+  for (const ScanCheck& scan : map.scans)
+    connected.push_back(scan.tied);
+  const bool is_brief = options_.is_kept && !options_.is_kept(connected);
   if (!options_.unsure.empty() && !is_brief)
     findTwins(T_world_scan, map);
   if (options_.probe && !is_brief)

@@ -11,21 +11,28 @@
 namespace pcl6d {
 
 namespace {
-/** Least number of free or confirmed points of a patch ... */
+/** Least number of free or confirmed points of a counted patch (share/doc/trust.md, Counting). */
 constexpr std::size_t kLeastOfPatch = 4;
-/** ... and least number of free points, together with half of all points, for a contradiction
- * (share/doc/trust.md, Counting). */
+/** Least number of free points of a contradicted patch; half of its points must be free, too. */
 constexpr std::size_t kLeastFree = 3;
 
-/** Number of a scan's own tested points: a share of 5 % is estimated to a tenth. */
+/** Number of points of a scan that are tested by other rays of the same scan: a share of 5 % is
+ * then known to within a tenth. */
 constexpr std::size_t kLookedAtOwn = 5000;
 
-/** A free or confirmed point, and its patch. */
-struct Observer {
+/** A point that rays pass (free) or meet (confirmed), and its patch. */
+struct TestedPoint {
   VoxelKey patch;
   bool free;
-  std::size_t contradiction; ///< index in the list, if the point is free
+  std::size_t
+      contradiction; ///< index in the list of contradictions, if the point is free
   Eigen::Vector3f place;
+};
+
+/** Free and confirmed points, and the contradictions by the free ones. */
+struct TestedPoints {
+  std::vector<TestedPoint> points;
+  std::vector<Contradiction> contradictions;
 };
 
 double
@@ -37,23 +44,23 @@ shareOf(std::size_t part, std::size_t rest)
 /** Counts the patches of the tested points, and marks contradictions in bad patches.
  * \return the contradicted patches, by indices into the list of contradictions */
 std::vector<std::vector<std::size_t>>
-countPatches(std::vector<Observer>& observers,
+countPatches(std::vector<TestedPoint>& tested,
              SightEvidence& evidence,
              std::vector<Contradiction>& contradictions)
 {
   std::vector<std::vector<std::size_t>> found;
   std::stable_sort(
-      observers.begin(), observers.end(), [](const Observer& a, const Observer& b) {
+      tested.begin(), tested.end(), [](const TestedPoint& a, const TestedPoint& b) {
         return a.patch < b.patch;
       });
-  for (auto first = observers.begin(); first != observers.end();) {
+  for (auto first = tested.begin(); first != tested.end();) {
     const auto last =
-        std::find_if(first, observers.end(), [first](const Observer& observer) {
-          return observer.patch != first->patch;
+        std::find_if(first, tested.end(), [first](const TestedPoint& point) {
+          return point.patch != first->patch;
         });
     const auto all = static_cast<std::size_t>(last - first);
     const auto free = static_cast<std::size_t>(std::count_if(
-        first, last, [](const Observer& observer) { return observer.free; }));
+        first, last, [](const TestedPoint& point) { return point.free; }));
     const bool contradicted = free >= kLeastFree && 2 * free >= all;
     if (all >= kLeastOfPatch) {
       ++evidence.patches;
@@ -75,7 +82,7 @@ countPatches(std::vector<Observer>& observers,
 
 /** Separates contradicted patches of isolated objects from the rest. */
 void
-countThings(const std::vector<Observer>& observers,
+countThings(const std::vector<TestedPoint>& tested,
             const std::vector<Contradiction>& contradictions,
             const std::vector<std::vector<std::size_t>>& patches,
             const SightPatch& size,
@@ -84,9 +91,9 @@ countThings(const std::vector<Observer>& observers,
   Points free, confirmed;
   for (const Contradiction& one : contradictions)
     free.push_back(one.place);
-  for (const Observer& observer : observers)
-    if (!observer.free)
-      confirmed.push_back(observer.place);
+  for (const TestedPoint& point : tested)
+    if (!point.free)
+      confirmed.push_back(point.place);
   const auto found = visibility::standingThings(
       free, confirmed, patches, 0.5 * size.edge, size.largest_thing);
   evidence.things = found.things;
@@ -135,6 +142,67 @@ placesOf(const RayImage& image,
         static_cast<float>(std::sqrt(varianceAlong(place, ray, uncertainty))));
   }
   return all;
+}
+
+/** \throws BadArgument a size is invalid, or the normals are not one per point */
+void
+requireValid(const TestedSurface& surface, const SightPatch& patch)
+{
+  require(std::isfinite(patch.edge) && patch.edge > 0,
+          "patch",
+          patch.edge,
+          "finite and > 0");
+  require(std::isfinite(patch.largest_thing) && patch.largest_thing >= 0,
+          "largest_thing",
+          patch.largest_thing,
+          "finite and >= 0");
+  require(!surface.normals || surface.normals->size() == surface.points.size(),
+          "normals",
+          surface.normals ? surface.normals->size() : 0,
+          "one per point");
+}
+
+/** Looks at each point of a surface from the origin of an image, and counts what is seen.
+ * \param[in] patch_edge [m] \return the free and the confirmed points, in the order of the surface */
+TestedPoints
+lookAt(const TestedSurface& surface,
+       const RayImage& image,
+       const Eigen::Isometry3d& T_image_points,
+       const PlaceUncertainty& uncertainty,
+       double patch_edge,
+       SightEvidence& evidence)
+{
+  const Eigen::Matrix3f R = T_image_points.linear().cast<float>();
+  const auto [finite, places, sigmas] =
+      placesOf(image, surface.points, T_image_points, uncertainty);
+  const std::vector<SightOfPlace> sights = image.look(places, sigmas);
+  TestedPoints tested;
+  for (std::size_t i = 0; i < finite.size(); ++i) {
+    const Eigen::Vector3f& p = surface.points[finite[i]];
+    const SightOfPlace& seen = sights[i];
+    const bool is_passed =
+        seen.sight == Sight::kFree &&
+        (!surface.normals || passedThrough(seen,
+                                           R * (*surface.normals)[finite[i]],
+                                           places[i] - image.origin()));
+    if (seen.sight == Sight::kUnseen)
+      ++evidence.unseen;
+    else if (seen.sight == Sight::kBehind)
+      ++evidence.behind;
+    else if (seen.sight == Sight::kConfirmed) {
+      ++evidence.confirmed;
+      tested.points.push_back({voxelKey(p, patch_edge), false, 0, p});
+    }
+    else if (is_passed) {
+      ++evidence.free;
+      tested.points.push_back(
+          {voxelKey(p, patch_edge), true, tested.contradictions.size(), p});
+      tested.contradictions.push_back({p, seen.beyond, false});
+    }
+    else // an edge, or a ray that grazes the surface
+      ++evidence.edge;
+  }
+  return tested;
 }
 } // namespace
 
@@ -186,60 +254,15 @@ sightEvidence(const RayImage& image,
               const SightPatch& patch,
               std::vector<Contradiction>* contradictions)
 {
-  require(std::isfinite(patch.edge) && patch.edge > 0,
-          "patch",
-          patch.edge,
-          "finite and > 0");
-  require(std::isfinite(patch.largest_thing) && patch.largest_thing >= 0,
-          "largest_thing",
-          patch.largest_thing,
-          "finite and >= 0");
-  require(!surface.normals || surface.normals->size() == surface.points.size(),
-          "normals",
-          surface.normals ? surface.normals->size() : 0,
-          "one per point");
-  const Eigen::Matrix3f R = T_image_points.linear().cast<float>();
+  requireValid(surface, patch);
   SightEvidence evidence;
-  std::vector<Observer> observers;
-  // The caller's list is unchanged if a point throws.
-  std::vector<Contradiction> found;
-  const auto [finite, places, sigmas] =
-      placesOf(image, surface.points, T_image_points, uncertainty);
-  const std::vector<SightOfPlace> sights = image.look(places, sigmas);
-  for (std::size_t i = 0; i < finite.size(); ++i) {
-    const Eigen::Vector3f& p = surface.points[finite[i]];
-    const SightOfPlace& seen = sights[i];
-    switch (seen.sight) {
-    case Sight::kUnseen:
-      ++evidence.unseen;
-      continue;
-    case Sight::kBehind:
-      ++evidence.behind;
-      continue;
-    case Sight::kEdge:
-      ++evidence.edge;
-      continue;
-    case Sight::kConfirmed:
-      ++evidence.confirmed;
-      observers.push_back({voxelKey(p, patch.edge), false, 0, p});
-      continue;
-    case Sight::kFree:
-      break;
-    }
-    if (surface.normals && !passedThrough(seen,
-                                          R * (*surface.normals)[finite[i]],
-                                          places[i] - image.origin())) {
-      ++evidence.edge;
-      continue;
-    }
-    ++evidence.free;
-    observers.push_back({voxelKey(p, patch.edge), true, found.size(), p});
-    found.push_back({p, seen.beyond, false});
-  }
-  const auto patches = countPatches(observers, evidence, found);
+  TestedPoints tested =
+      lookAt(surface, image, T_image_points, uncertainty, patch.edge, evidence);
+  std::vector<Contradiction>& found = tested.contradictions;
+  const auto patches = countPatches(tested.points, evidence, found);
   if (patch.largest_thing > 0 && !patches.empty())
-    countThings(observers, found, patches, patch, evidence);
-  if (contradictions)
+    countThings(tested.points, found, patches, patch, evidence);
+  if (contradictions) // extended at the end: unchanged if a point throws
     contradictions->insert(contradictions->end(), found.begin(), found.end());
   return evidence;
 }

@@ -85,7 +85,7 @@ TEST_F(SuiteTest, MeasuresEveryMethodAndTheOdometry)
     Trajectory estimate = readTrajectory(out / "runs" / "corridor" / method / "1" /
                                          "result" / "trajectory.tum");
     expectErrors(row, estimate);
-    EXPECT_EQ(row.at("verdict"), "trusted");
+    EXPECT_EQ(row.at("verdict"), "reliable");
     EXPECT_GT(std::stod(row.at("seconds")), 0);
     EXPECT_GT(std::stod(row.at("cpu_seconds")), 0);
     EXPECT_GT(std::stod(row.at("peak_memory_mb")), 10);
@@ -215,7 +215,7 @@ TEST_F(SuiteTest, ARunThatFailsIsARowAndTheOthersGoOn)
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   const auto rows = pcl6d::test::readCsv(out / "table.csv");
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[1].at("verdict"), "trusted");
+  EXPECT_EQ(rows[1].at("verdict"), "reliable");
   EXPECT_EQ(rows[2].at("data"), "broken");
   EXPECT_EQ(rows[2].at("verdict"), "failed (exit 1)");
   EXPECT_NE(rows[2].at("message").find("scan001.pcd: 2 points"), std::string::npos);
@@ -241,20 +241,20 @@ TEST_F(SuiteTest, SimulatesOnceAndAFailedSimulationIsARow)
             std::string::npos);
 }
 
-TEST_F(SuiteTest, TellsAMethodThatIsNotToBeTrusted)
+TEST_F(SuiteTest, TellsAMethodThatIsNotReliable)
 {
   auto suite = smallSuite();
   suite["methods"]["pairwise"]["iterations"] = 1;
   EXPECT_EQ(run(suite, {"--only", "pairwise"}).exit_code, 0) << "it has numbers";
-  EXPECT_EQ(rowOf("pairwise").at("verdict"), "not trusted");
+  EXPECT_EQ(rowOf("pairwise").at("verdict"), "not reliable");
   EXPECT_NE(rowOf("pairwise").at("rms_position_m"), "");
 }
 
 TEST_F(SuiteTest, RunsSeveralAtOnce)
 {
   EXPECT_EQ(run(smallSuite(), {"--jobs", "2", "--quiet"}).exit_code, 0);
-  EXPECT_EQ(rowOf("pairwise").at("verdict"), "trusted");
-  EXPECT_EQ(rowOf("metascan").at("verdict"), "trusted");
+  EXPECT_EQ(rowOf("pairwise").at("verdict"), "reliable");
+  EXPECT_EQ(rowOf("metascan").at("verdict"), "reliable");
 }
 
 TEST(Suites, AllThatAreShippedAreRight)

@@ -148,7 +148,8 @@ TEST_F(Continue, RefusesWhatIsNoFinishedRun)
   const auto names = [](const std::string& error, const std::string& part) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
-  names(errorOf(goOn(scans(), "scans")), "summary.json: No such file");
+  names(errorOf(goOn(scans(), "scans")),
+        "holds no run of pcl_slam6d (no summary.json)");
   const fs::path file = at("broken") / "summary.json";
   fs::copy(at("part"), at("broken"), fs::copy_options::recursive);
   auto summary = nlohmann::json::parse(readText(file));

@@ -10,10 +10,13 @@
 namespace pcl6d {
 
 namespace {
-constexpr std::size_t kBlockSize = 4096;
-constexpr double kLeastScale = 1e-6; // [m] finer than any scanner: exact copies
+constexpr std::size_t kBlockSize = 4096; // pairs
+/** [m] Least scale of the residuals: finer than any scanner, for scans that are exact copies. */
+constexpr double kLeastScale = 1e-6;
 
-/** Sums over pairs about an origin common to the blocks of a link: merging is addition. */
+/** Sums over the pairs of a block, about an origin common to all blocks of a link: blocks are merged
+ * by addition. A pair has a midpoint c and a difference Z; its norm is a 3x3 weight matrix W, with
+ * the cost Z^T W Z. */
 struct PairMoments {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -24,9 +27,10 @@ struct PairMoments {
   Vector6 first = Vector6::Zero();  ///< sum w (c, Z)
   Matrix6 second = Matrix6::Zero(); ///< sum w (c, Z) (c, Z)^T
 
-  bool has_norms = false; ///< the rest is filled in
-  double trace = 0;       ///< sum tr W
-  double trace_sq = 0;    ///< sum tr W^2
+  // Only of pairs with norms; without norms these sums follow from the moments.
+  bool has_norms = false;
+  double trace = 0;    ///< sum tr W
+  double trace_sq = 0; ///< sum tr W^2
   LinkSums::Matrix A = LinkSums::Matrix::Zero();
   LinkSums::Vector b = LinkSums::Vector::Zero();
   double residual_sq = 0;
@@ -56,7 +60,7 @@ motionMatrix(const Eigen::Vector3d& c)
   return M;
 }
 
-/** A, b and the rest for pairs without norms, from the moments. */
+/** Fills in A, b and residual_sq of pairs without norms, from the moments. */
 void
 fillFromMoments(LinkSums& sums)
 {
@@ -152,7 +156,8 @@ PairMoments::about(const Eigen::Vector3d& origin) const
   return sums;
 }
 
-/** The pairs of a link in the world, about an origin near the pairs. */
+/** The pairs of a link in the axes of the world, about the origin of the first scan: coordinates stay
+ * small. */
 class PlacedPairs {
 public:
   PlacedPairs(const LinkPairs& pairs,
@@ -232,7 +237,8 @@ residualsOf(const PlacedPairs& placed)
   return residuals;
 }
 
-/** \return the factor of each pair by its residual over the common scale; empty: 1 */
+/** \return the robust weight of each pair, by its residual relative to the scale of all residuals
+ * (1.4826 times the median: the standard deviation of normal noise); empty: 1 for all */
 std::vector<double>
 robustFactors(const PlacedPairs& placed, RobustKernel kernel)
 {
@@ -310,7 +316,7 @@ piecesOf(const std::vector<LinkPairs>& links)
 }
 } // namespace
 
-/** For other processes. */
+/** For transfer to other processes. */
 template <typename Archive>
 void
 packFields(Archive& archive, LinkSums& sums)
@@ -364,7 +370,8 @@ sumLinks(const std::vector<LinkPairs>& links,
   const auto later = [&](std::size_t l) {
     return std::max(links[l].from, links[l].to);
   };
-  sharedFor(sharing, num_threads, sums, later, [](std::size_t) {}); // those of others
+  // Each process has summed its own links; here it gets the sums of the others.
+  sharedFor(sharing, num_threads, sums, later, [](std::size_t) {});
   return sums;
 }
 

@@ -3,6 +3,7 @@
 #include "scan/initial_poses.h"
 #include "scan/scan_formats.h"
 
+#include <pcl6d/common/error.h>
 #include <pcl6d/io/natural_order.h>
 #include <pcl6d/io/text.h>
 
@@ -69,7 +70,7 @@ scanFiles(const fs::path& folder, const IsOfFormat& is_of_format)
   if (status.type() == fs::file_type::not_found)
     text::fail(folder, "no such folder"); // or a part of the path is missing
   if (!error && !fs::is_directory(status))
-    text::fail(folder, "is a file, but must be a folder of scans");
+    text::fail(folder, "is a file, but must be a folder of scans: give its folder");
   std::vector<fs::path> files;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error))
@@ -147,6 +148,45 @@ enterDataset(const fs::path& folder,
   scans.entered = layout->scans.lexically_relative(folder).string();
 }
 
+/** Depth of the folders searched for a hint, and their largest number: a home folder has many. */
+constexpr int kHintDepth = 2;
+constexpr std::size_t kMostHintFolders = 200;
+
+/** \return the folders below, the upper ones first, in alphabetical order */
+std::vector<fs::path>
+foldersBelow(const fs::path& folder)
+{
+  std::vector<fs::path> above = {folder}, all;
+  for (int depth = 0; depth < kHintDepth; ++depth) {
+    std::vector<fs::path> below;
+    for (const fs::path& one : above) {
+      std::error_code error;
+      fs::directory_iterator entry(one, error);
+      for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        if (std::error_code broken_link; entry->is_directory(broken_link) &&
+                                         below.size() + all.size() < kMostHintFolders)
+          below.push_back(entry->path());
+    }
+    std::sort(below.begin(), below.end());
+    all.insert(all.end(), below.begin(), below.end());
+    above = std::move(below);
+  }
+  return all;
+}
+
+/** \return where scans lie below a folder without scans, for its message; empty if nowhere */
+std::string
+hintOfScansBelow(const fs::path& folder, const ScanFolderOptions& options)
+{
+  for (const fs::path& below : foldersBelow(folder))
+    try {
+      if (!scansIn(below, options).empty())
+        return "; scans lie in " + below.string() + ": give this folder";
+    } catch (const IoFailed&) { // an unreadable folder gives no hint
+    }
+  return "";
+}
+
 bool
 areTables(const std::vector<fs::path>& files)
 {
@@ -203,7 +243,7 @@ findScans(const fs::path& folder, const ScanFolderOptions& options)
                    (options.other_format ? options.other_format->extension
                     : is_auto            ? allExtensions()
                                          : extensionOf(options.format)) +
-                   ")");
+                   ")" + hintOfScansBelow(folder, options));
   if (options.other_format)
     scans.format = ScanFormat::kAuto;
   else if (is_auto)

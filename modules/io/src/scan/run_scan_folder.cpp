@@ -126,12 +126,48 @@ ScanFolder::keepOnly(const std::vector<std::size_t>& places)
   stamps_ = std::move(stamps);
 }
 
+namespace {
+/** The files of a run, of scans and of the sweeps between keyframes, and the index of the next
+ * scan. */
+struct FilesOfRun {
+  explicit FilesOfRun(const RunResult& summary)
+  {
+    for (const auto& scan : summary.scans) {
+      names.insert(scan.file);
+      next_index = std::max(next_index, scan.index + 1);
+    }
+    if (!summary.drive)
+      return;
+    const std::vector<std::string>& sweeps = summary.drive->files;
+    names.insert(sweeps.begin(), sweeps.end());
+    next_index =
+        std::max(next_index, summary.drive->first + static_cast<int>(sweeps.size()));
+  }
+
+  std::set<std::string> names;
+  int next_index = 0;
+};
+
+/** \return [s] the stamps of the scans of a run; without stamps, the indices of the scans, if these
+ * are the stamps of the folder, too; else empty
+ * \param[in] stamps_of_folder by file name */
+std::vector<double>
+stampsToContinue(const fs::path& run,
+                 const RunResult& summary,
+                 const std::map<std::string, double>& stamps_of_folder)
+{
+  std::vector<double> stamps = stampsOfRun(run, summary);
+  if (stamps.empty() && areNumbers(stamps_of_folder, summary))
+    for (const auto& scan : summary.scans)
+      stamps.push_back(scan.index);
+  return stamps;
+}
+} // namespace
+
 void
 ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
 {
   std::vector<Entry> entries;
-  std::set<std::string> known;
-  int next = 0;
   for (const auto& scan : summary.scans) {
     const fs::path file = run / "scans" / (scanName(scan.index) + ".pcd");
     if (!fs::exists(file))
@@ -147,27 +183,16 @@ ScanFolder::continueRun(const fs::path& run, const RunResult& summary)
                        scan.initial_pose,
                        {},
                        0});
-    known.insert(scan.file);
-    next = std::max(next, scan.index + 1);
   }
-  if (summary.drive) { // the sweeps between keyframes have poses, too
-    known.insert(summary.drive->files.begin(), summary.drive->files.end());
-    next = std::max(
-        next, summary.drive->first + static_cast<int>(summary.drive->files.size()));
-  }
-  std::vector<double> stamps = stampsOfRun(run, summary);
-  if (stamps.empty()) {
-    std::map<std::string, double> found;
-    for (std::size_t i = 0; i < stamps_.size(); ++i)
-      found[entries_[i].name] = stamps_[i];
-    if (areNumbers(found, summary))
-      for (const auto& scan : summary.scans)
-        stamps.push_back(scan.index);
-  }
+  std::map<std::string, double> stamps_of_folder;
+  for (std::size_t i = 0; i < stamps_.size(); ++i)
+    stamps_of_folder[entries_[i].name] = stamps_[i];
+  std::vector<double> stamps = stampsToContinue(run, summary, stamps_of_folder);
+  FilesOfRun of_run(summary);
   for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (known.count(entries_[i].name) == 0) {
+    if (of_run.names.count(entries_[i].name) == 0) {
       entries.push_back(entries_[i]);
-      entries.back().index = next++;
+      entries.back().index = of_run.next_index++;
       if (!stamps.empty() && !stamps_.empty())
         stamps.push_back(stamps_[i]);
     }

@@ -56,6 +56,7 @@ pointsOfFile(const std::filesystem::path& path, const ScanReaderOptions& options
   case ScanFormat::kAuto:
     break;
   }
+  text::open(path); // a missing file has no format either
   text::fail(path,
              "unknown format of scans " + text::quoted(path.extension().string()) +
                  " (known: " + allExtensions() + ")");

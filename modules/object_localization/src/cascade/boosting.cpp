@@ -64,6 +64,8 @@ sumOfThree(const Corners& first,
         (first.weighted(i) + second.weighted(i) + third.weighted(i)) * factors[i];
 }
 
+/** Copies the table of a window into the joint table of all windows, where equal entries of all
+ * windows lie side by side. */
 void
 scatter(const std::vector<std::uint32_t>& table,
         std::size_t window,
@@ -114,9 +116,10 @@ WindowBatch::valuesOf(const HaarFeature& feature, float* values) const
 }
 
 namespace {
-constexpr std::uint16_t kNextIsEqual = 0x8000;
-constexpr std::uint16_t kWindow = 0x7fff;
-constexpr std::size_t kBlock = 64; // features per piece of work
+/** Bits of an entry of the sorted order: the index of a window, and whether the next window has an
+ * equal value, so that no threshold lies between the two. */
+constexpr std::uint16_t kWindow = 0x7fff, kNextIsEqual = 0x8000;
+constexpr std::size_t kBlock = 64; // features that a thread takes at a time
 
 /** \return an integer with the order of the float */
 std::uint32_t
@@ -128,9 +131,10 @@ orderedBits(float value)
   return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
+/** A key for sorting: the ordered bits of a value above the index of its window. */
 constexpr int kIndexBits = 16;
 
-/** \brief Sorts by the upper bits; equal keys keep their order. */
+/** \brief Sorts keys by their values (radix sort); equal values keep their order. */
 void
 sortByValue(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& spare)
 {
@@ -198,7 +202,7 @@ SortedFeatures::bestCut(std::size_t feature,
                         const double total_response) const
 {
   const std::uint16_t* const order = &order_[feature * windows_.size()];
-  const double least = 1e-9 * total_weight; // on a side: below, rounding decides
+  const double least = 1e-9 * total_weight; // of a side: a smaller weight is rounding
   double u = 0, a = 0, best_numerator = 0, best_denominator = 1;
   Cut cut;
   for (std::size_t i = 0; i + 1 < windows_.size(); ++i) {

@@ -10,9 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 namespace pcl6d::targets {
 
@@ -29,9 +27,6 @@ constexpr double kMostUneven = 0.35;
 constexpr double kFlattest = 0.035;
 /** Least share of points with the colour of their quarter: points at edges see both. */
 constexpr double kLeastAgreement = 0.9, kLeastAtBorder = 0.8;
-/** Largest angle between ray and normal: 70 degrees, at which a board appears a third
- * as wide. */
-constexpr double kGrazing = 0.342; // its cosine
 
 /** A point of a board in the axes of its plane, with its brightness: -1 dark, 1 light. */
 struct Spot {
@@ -293,25 +288,19 @@ testBoard(const TargetScan& scan,
   sigma = std::hypot(sigma, spacing / std::sqrt(12 * size / spacing));
   const double across = plane->rms / std::sqrt(static_cast<double>(agreement.points));
   const double cosine = std::abs(plane->normal.dot(centre.normalized()));
-  RejectedTarget rejected{TargetKind::kBoard, size, centre, ""};
-  std::ostringstream text;
+  std::optional<MeasuredFault> fault;
   if (cosine < kGrazing)
-    text << "seen at " << std::fixed << std::setprecision(0)
-         << std::acos(cosine) * 180 / 3.14159265358979323846 << " deg, at most 70 deg";
+    fault = {TargetFault::kGrazingAngle, std::acos(cosine)};
   else if (agreement.border < kLeastAtBorder)
-    text << "smaller than " << size << " m: near the border " << std::fixed
-         << std::setprecision(0) << 100 * agreement.border
-         << " % of the points have the colour of their quarter";
-  rejected.reason = text.str();
-  if (rejected.reason.empty())
-    search.found.push_back({TargetKind::kBoard,
-                            size,
-                            centre,
-                            std::sqrt((2 * sigma * sigma + across * across) / 3),
-                            agreement.all,
-                            agreement.points});
-  else
-    search.rejected.push_back(rejected);
+    fault = {TargetFault::kSmallerBoard, agreement.border};
+  addTarget({TargetKind::kBoard,
+             size,
+             centre,
+             std::sqrt((2 * sigma * sigma + across * across) / 3),
+             agreement.all,
+             agreement.points},
+            fault,
+            search);
 }
 } // namespace
 

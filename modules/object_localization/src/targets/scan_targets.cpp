@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "targets/target_parts.h"
 
+#include <pcl6d/common/angle.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/voxel_numbers.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace pcl6d {
 using namespace targets;
@@ -14,6 +17,36 @@ const char*
 toString(TargetKind kind)
 {
   return kind == TargetKind::kSphere ? "sphere" : "board";
+}
+
+std::string
+toWords(const RejectedTarget& rejected)
+{
+  std::ostringstream text;
+  const auto rounded = [&text](int digits) -> std::ostream& {
+    return text << std::fixed << std::setprecision(digits);
+  };
+  switch (rejected.fault) {
+  case TargetFault::kOtherDiameter:
+    text << "its diameter is ";
+    rounded(3) << rejected.measured << " m";
+    break;
+  case TargetFault::kMostlyHidden:
+    text << "only ";
+    rounded(0) << 100 * rejected.measured << " % of the visible side have points";
+    break;
+  case TargetFault::kGrazingAngle:
+    text << "seen at ";
+    rounded(0) << degrees(rejected.measured) << " deg, at most "
+               << degrees(std::acos(kGrazing)) << " deg";
+    break;
+  case TargetFault::kSmallerBoard:
+    text << "smaller than " << rejected.size << " m: near the border ";
+    rounded(0) << 100 * rejected.measured
+               << " % of the points have the colour of their quarter";
+    break;
+  }
+  return text.str();
 }
 
 void
@@ -26,6 +59,21 @@ TargetOptions::validate() const
             "finite and > 0");
   for (const double size : board_sizes)
     require(std::isfinite(size) && size > 0, "board_size", size, "finite and > 0");
+}
+
+void
+targets::addTarget(const FoundTarget& candidate,
+                   const std::optional<MeasuredFault>& fault,
+                   TargetSearch& search)
+{
+  if (fault)
+    search.rejected.push_back({candidate.kind,
+                               candidate.size,
+                               candidate.centre,
+                               fault->fault,
+                               fault->measured});
+  else
+    search.found.push_back(candidate);
 }
 
 std::vector<std::size_t>

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 namespace pcl6d::targets {
 
@@ -213,16 +211,23 @@ freeSphere(const TargetScan& scan, double radius, SphereFit fit)
   return fit;
 }
 
-std::string
-percent(double share)
+/** \return whether points look like a sphere of a similar size; other shapes, which are most, are
+ * not reported. \param[in] free the sphere of free radius */
+bool
+isSphere(const TargetScan& scan,
+         double radius,
+         const SphereFit& fit,
+         const SphereFit& free)
 {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(0) << 100 * share << " %";
-  return text.str();
+  const auto count = static_cast<double>(fit.points.size());
+  return !(free.rms > kMostRms * radius || free.radius > kMostRadius * radius ||
+           free.radius < kLeastRadius * radius ||
+           free.radius_sigma > kMostOfRadius * radius ||
+           static_cast<double>(countBeside(scan, fit, std::max(radius, free.radius))) >
+               kMostBeside * count);
 }
 
-/** Sorts a fit into found, rejected or neither: most shapes that are no sphere are not
- * reported. */
+/** Sorts a fit into found, rejected or neither. */
 void
 evaluateSphere(const TargetScan& scan,
                double radius,
@@ -235,36 +240,27 @@ evaluateSphere(const TargetScan& scan,
   if (static_cast<double>(countInside(scan, fit, radius)) > kMostInside * count)
     return;
   const SphereFit free = freeSphere(scan, radius, fit);
+  if (!isSphere(scan, radius, fit, free))
+    return;
   const double off = std::abs(free.radius - radius);
   const double coverage = coverageOf(scan, fit, radius);
-  RejectedTarget rejected{TargetKind::kSphere, 2 * radius, fit.centre, ""};
-  if (free.rms > kMostRms * radius || free.radius > kMostRadius * radius ||
-      free.radius < kLeastRadius * radius ||
-      free.radius_sigma > kMostOfRadius * radius ||
-      static_cast<double>(countBeside(scan, fit, std::max(radius, free.radius))) >
-          kMostBeside * count)
+  const bool is_hidden = coverage < kLeastCoverage;
+  const bool is_other = off > std::max(kMostOfRadius * radius, 4 * free.radius_sigma);
+  if (is_other ? is_hidden : fit.rms > kMostRms * radius)
     return;
-  if (off > std::max(kMostOfRadius * radius, 4 * free.radius_sigma)) {
-    if (coverage < kLeastCoverage)
-      return;
-    std::ostringstream text;
-    text << "its diameter is " << std::fixed << std::setprecision(3) << 2 * free.radius
-         << " m";
-    rejected.reason = text.str();
-  }
-  else if (fit.rms > kMostRms * radius)
-    return;
-  else if (coverage < kLeastCoverage)
-    rejected.reason = "only " + percent(coverage) + " of the visible side have points";
-  if (rejected.reason.empty())
-    search.found.push_back({TargetKind::kSphere,
-                            2 * radius,
-                            fit.centre,
-                            fit.sigma,
-                            coverage,
-                            fit.points.size()});
-  else
-    search.rejected.push_back(rejected);
+  std::optional<MeasuredFault> fault;
+  if (is_other)
+    fault = {TargetFault::kOtherDiameter, 2 * free.radius};
+  else if (is_hidden)
+    fault = {TargetFault::kMostlyHidden, coverage};
+  addTarget({TargetKind::kSphere,
+             2 * radius,
+             fit.centre,
+             fit.sigma,
+             coverage,
+             fit.points.size()},
+            fault,
+            search);
 }
 } // namespace
 

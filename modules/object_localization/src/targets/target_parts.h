@@ -4,6 +4,7 @@
 #include <pcl6d/object_localization/scan_targets.h>
 #include <pcl6d/search/point_tree.h>
 
+#include <optional>
 #include <vector>
 
 /** \file The parts of findTargets(). */
@@ -16,6 +17,22 @@ struct TargetScan {
   std::vector<float> intensity;
   PointTree tree;
 };
+
+/** \brief A fault of a candidate, with its number. */
+struct MeasuredFault {
+  TargetFault fault = TargetFault::kOtherDiameter;
+  double measured = 0; ///< see TargetFault
+};
+
+/** \brief Cosine of the largest angle between rays and the normal of a board: 70 degrees, at which a
+ * board appears a third as wide. */
+constexpr double kGrazing = 0.342;
+
+/** \brief Adds a candidate to the found targets, or with a fault to the rejected ones. */
+void
+addTarget(const FoundTarget& candidate,
+          const std::optional<MeasuredFault>& fault,
+          TargetSearch& search);
 
 /** \return indices of the points within a distance [m] of a position, ascending */
 std::vector<std::size_t>

@@ -16,8 +16,18 @@ namespace pcl6d::plane_segmentation {
 namespace {
 constexpr std::uint32_t kNoPart = 0xffffffff;
 constexpr std::size_t kBlockSize = 512; // surfels
-/** Factor on the distance of points without a normal, near edges and in clutter. */
+/** Factor on the largest distance of points without a normal, near edges and in clutter. */
 constexpr double kEdge = 0.8;
+/** Share of the least area below which a part is dropped by the estimate of its area, which is
+ * rough. */
+constexpr double kSurelySmall = 0.5;
+/** Least cosine between the normals of two parts that are joined: 20 degrees. */
+constexpr double kLeastCosine = 0.94;
+/** Largest mean squared distance of points to a common plane, relative to that to their own plane,
+ * and a distance [sigma] added for errors besides noise. */
+constexpr double kGrowth = 1.3, kShift = 1.5;
+/** [sigma] Largest step between the planes of two joined parts, where the parts meet. */
+constexpr double kLargestStep = 3.0;
 
 /** The parts with points in each surfel. */
 class PartsInside {
@@ -59,11 +69,12 @@ private:
   std::vector<std::uint32_t> parts_;
 };
 
-class Claims {
+/** Finds the plane of each point among the planes around it. */
+class OwnerSearch {
 public:
-  Claims(const PlaneCloud& cloud,
-         const std::vector<PlanePart>& parts,
-         const PlaneOptions& options)
+  OwnerSearch(const PlaneCloud& cloud,
+              const std::vector<PlanePart>& parts,
+              const PlaneOptions& options)
   : cloud_(cloud)
   , parts_(parts)
   , max_distance_(options.max_plane_distance)
@@ -113,7 +124,7 @@ claimPoints(const PlaneCloud& cloud,
 {
   const Surfels& surfels = cloud.surfels();
   const PartsInside inside(cloud, parts);
-  const Claims claims(cloud, parts, options);
+  const OwnerSearch search(cloud, parts, options);
   std::vector<std::uint32_t> owners(cloud.points().size(), kNoPart);
   parallelBlocks(
       surfels.size(), kBlockSize, cloud.numThreads(), [&](const Block& block) {
@@ -125,13 +136,11 @@ claimPoints(const PlaneCloud& cloud,
             inside.collect(surfels.links[k], around);
           std::sort(around.begin(), around.end());
           for (std::size_t m = surfels.begin[i]; m < surfels.begin[i + 1]; ++m)
-            owners[surfels.members[m]] = claims.ownerOf(surfels.members[m], around);
+            owners[surfels.members[m]] = search.ownerOf(surfels.members[m], around);
         }
       });
   return owners;
 }
-
-constexpr double kSurelySmall = 0.5; // of the least area, by an estimate
 
 /** Makes the normal point to where most of the points were seen from. */
 void
@@ -146,12 +155,7 @@ turnToSensor(const PlaneCloud& cloud, PlanePart& part)
     part.plane.flip();
 }
 
-constexpr double kLeastCosine = 0.94; // of the normals of one carrier plane: 20 deg
-/** How much farther, squared, points may be from a common plane than from their own. */
-constexpr double kGrowth = 1.3;
-constexpr double kShift = 1.5;       // [sigma] added, for errors besides noise
-constexpr double kLargestStep = 3.0; // [sigma] between the planes where the parts meet
-
+/** \return whether the points of a part are about as near to a common plane as to their own */
 bool
 staysAsFlat(const PlanePart& part, const PlaneFit& common)
 {
@@ -160,9 +164,9 @@ staysAsFlat(const PlanePart& part, const PlaneFit& common)
          kGrowth * own + kShift * kShift * std::max(part.sigma * part.sigma, own);
 }
 
-/** Whether one plane fits both parts about as well as their own planes. */
+/** \return whether one plane fits both parts about as well as their own planes */
 bool
-shareCarrier(const PlanePart& a, const PlanePart& b)
+areOnOnePlane(const PlanePart& a, const PlanePart& b)
 {
   if (a.plane.normal.dot(b.plane.normal) < kLeastCosine)
     return false;
@@ -207,17 +211,17 @@ PlaneParts::fit(PlanePart& part) const
   if (part.points.size() < 3)
     return false;
   const Eigen::Vector3d about = cloud_.points()[part.points.front()].cast<double>();
-  PlaneMoments firm(about);
+  PlaneMoments supporting(about); // of points with the normal of the plane
   double squares = 0;
   const bool known = part.sums.count() > 0;
   for (const auto i : part.points) {
     const double sigma = cloud_.surfels().noise[cloud_.surfels().of_point[i]];
     squares += sigma * sigma;
     if (known && supports(part, i))
-      firm.add(cloud_.points()[i].cast<double>());
+      supporting.add(cloud_.points()[i].cast<double>());
   }
-  part.sums = firm;
-  if (2 * firm.count() <= part.points.size()) {
+  part.sums = supporting;
+  if (2 * supporting.count() <= part.points.size()) {
     part.sums = PlaneMoments(about);
     for (const auto i : part.points)
       part.sums.add(cloud_.points()[i].cast<double>());
@@ -346,7 +350,7 @@ bool
 PlaneParts::mergeInto(std::size_t i)
 {
   for (std::size_t j = 0; j < i; ++j) {
-    if (!shareCarrier(parts_[j], parts_[i]) || !touch(parts_[j], parts_[i]))
+    if (!areOnOnePlane(parts_[j], parts_[i]) || !touch(parts_[j], parts_[i]))
       continue;
     std::vector<std::uint32_t> points;
     std::merge(parts_[j].points.begin(),

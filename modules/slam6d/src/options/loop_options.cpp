@@ -29,13 +29,13 @@ describeLengths(LoopOptions& o, Slam6DParameters& used, OptionList& list)
       .within(wholeCount())
       .derivedAs("the number of scans along 5 loop distances, at least 4",
                  used.loop_gap)
-      .withHelp("or auto: scans between the ends of a loop");
+      .withHelp("N or auto: least number of scans between the ends of a loop");
   list.add("loop-pairs", o.loop_pairs)
       .inUnit("pairs")
       .within(wholeCount())
       .derivedAs("5 % of the points of a reduced scan, at least 20, at most 250",
                  used.loop_pairs)
-      .withHelp("or auto: least pairs of points for a loop");
+      .withHelp("N or auto: least pairs of points for a loop");
 }
 
 void

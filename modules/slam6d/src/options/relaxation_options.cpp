@@ -72,8 +72,9 @@ describe(RelaxationOptions& o, Slam6DParameters& used, OptionList& list)
       .withDefault(relaxationWord(o))
       .withHelp(
           slam6d::withBars(relaxationNames()) +
-          "|none: method that moves the scans at once after matching, or simultaneous: "
-          "scan after scan, until the poses stay; reverted if the map gets worse");
+          "|simultaneous|none: method that moves all scans at once after matching; "
+          "simultaneous: scan after scan, until the poses stay; reverted if the map "
+          "gets worse");
   describeLinks(o, used, list);
 }
 

@@ -23,7 +23,7 @@ struct SuiteRow {
   std::optional<double> cpu_seconds;
   std::optional<double> peak_memory_mb; ///< largest of several runs [MB]
   int runs = 0;                         ///< number of timed runs; 0: not run
-  std::string verdict;                  ///< "trusted", "timed out", ...; may be empty
+  std::string verdict;                  ///< "reliable", "timed out", ...; may be empty
   std::string message;                  ///< reason of a missing result; else empty
 };
 

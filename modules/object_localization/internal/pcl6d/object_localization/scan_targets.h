@@ -40,13 +40,26 @@ struct FoundTarget {
   std::size_t points = 0; ///< on the target
 };
 
+/** \brief Why a candidate of a target is rejected. */
+enum class TargetFault {
+  kOtherDiameter, ///< measured: diameter of the sphere [m]
+  kMostlyHidden,  ///< measured: share of the sphere's visible side with points
+  kGrazingAngle, ///< measured: angle [rad] between the rays and the normal of the board
+  kSmallerBoard ///< measured: share of points near the border with the colour of their quarter
+};
+
 /** \brief A rejected candidate of a target, with the reason. */
 struct RejectedTarget {
   TargetKind kind = TargetKind::kSphere;
   double size = 0;                                  ///< [m] nominal size
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m] approximate
-  std::string reason;
+  TargetFault fault = TargetFault::kOtherDiameter;
+  double measured = 0; ///< by fault
 };
+
+/** \return the reason in words, such as "its diameter is 0.200 m" */
+std::string
+toWords(const RejectedTarget& rejected);
 
 struct TargetSearch {
   std::vector<FoundTarget> found;

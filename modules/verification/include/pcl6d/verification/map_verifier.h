@@ -18,6 +18,9 @@
 namespace PCL6D_EXPORTS pcl6d {
 
 class WorkSharing;
+namespace verification {
+struct Ties;
+}
 
 /** \brief Knobs of MapVerifier. */
 struct MapVerifierOptions {
@@ -27,6 +30,9 @@ struct MapVerifierOptions {
   /** for each scan: registered without a prior pose, e.g. by features, which requires a search for
    * a second pose; empty: no scan */
   std::vector<bool> unsure;
+  /** for each scan: could not be matched, and its pose is a prediction. Its links are tested, but
+   * the scan does not count as connected; empty: no scan */
+  std::vector<bool> unregistered;
   /** displaces the most certain link of each scan, to find the detectable shift */
   bool probe = true;
   /** asked whether the map is kept, given for each scan whether it is connected. If not, the
@@ -76,6 +82,8 @@ private:
   choosePairs(const std::vector<Eigen::Isometry3d>& poses) const;
   std::size_t
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
+  void
+  checkScans(const verification::Ties& ties, MapVerification& map) const;
   void
   findTwins(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
   Rejection

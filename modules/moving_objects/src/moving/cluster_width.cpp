@@ -17,8 +17,8 @@ evenWidth(double variance)
 }
 } // namespace
 
-double
-widthOf(const std::vector<Eigen::Vector3d>& points)
+Eigen::Matrix3d
+scatterOf(const std::vector<Eigen::Vector3d>& points)
 {
   const auto count = static_cast<double>(points.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -27,7 +27,13 @@ widthOf(const std::vector<Eigen::Vector3d>& points)
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& p : points)
     scatter += (p - middle) * (p - middle).transpose() / count;
-  return evenWidth(symmetricEigenvalues<3>(scatter)(1));
+  return scatter;
+}
+
+double
+widthOf(const std::vector<Eigen::Vector3d>& points)
+{
+  return evenWidth(symmetricEigenvalues<3>(scatterOf(points))(1));
 }
 
 double
@@ -39,18 +45,14 @@ arcWidthOf(const std::vector<Eigen::Vector3d>& directions)
   return std::min(widthOf(directions), evenWidth(symmetricEigenvalues<3>(scatter)(0)));
 }
 
-double
-seenWidthOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& from)
+Eigen::Vector2d
+seenExtentOf(const Eigen::Matrix3d& scatter, const Eigen::Vector3d& direction)
 {
-  Eigen::Vector3d ray = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points)
-    ray += p - from;
-  ray.normalize();
-  std::vector<Eigen::Vector3d> seen;
-  seen.reserve(points.size());
-  for (const Eigen::Vector3d& p : points)
-    seen.push_back(p - ray.dot(p - from) * ray);
-  return widthOf(seen);
+  const Eigen::Matrix3d across =
+      Eigen::Matrix3d::Identity() - direction * direction.transpose();
+  const Eigen::Vector3d variances =
+      symmetricEigenvalues<3>(across * scatter * across); // along it: 0
+  return {evenWidth(variances(1)), evenWidth(variances(2))};
 }
 
 } // namespace pcl6d::moving_objects

@@ -19,8 +19,12 @@ widthOf(const std::vector<Eigen::Vector3d>& points);
 double
 arcWidthOf(const std::vector<Eigen::Vector3d>& directions);
 
-/** \return the width of points across the rays from a position, in their unit */
-double
-seenWidthOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& from);
+/** \return mean square of the points about their middle, in their unit squared */
+Eigen::Matrix3d
+scatterOf(const std::vector<Eigen::Vector3d>& points);
+
+/** \return the narrow and the wide extent of a surface of given scatter, seen along a direction */
+Eigen::Vector2d
+seenExtentOf(const Eigen::Matrix3d& scatter, const Eigen::Vector3d& direction);
 
 } // namespace pcl6d::moving_objects

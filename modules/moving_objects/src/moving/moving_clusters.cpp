@@ -26,10 +26,9 @@ constexpr double kNearSigmas = 6;
  * each, the least number of points in a patch of sightEvidence(). Fewer may be chance. */
 constexpr int kLeastMisses = 8;
 
-/** Number of misses for a dynamic cluster although every observer with a miss sees it at a flat
- * angle, like the side of an object that passes the observer: four times the least. Without a
- * limit 0.2 % of the dynamic points of a crowd are lost. */
-constexpr int kManyMisses = 32;
+/** Largest probability that the rays of all scans passed beside a cluster by chance: the share of
+ * wrong decisions accepted elsewhere for 95 %. */
+constexpr double kByChance = 0.05;
 
 /** A cluster with hits is dynamic if at least this number of scans saw through most of its
  * places: the pose of a single scan may be wrong. */
@@ -176,8 +175,7 @@ MovingClusters::moves(const std::vector<std::size_t>& cluster) const
   const bool was_seen_there = 2 * hits > misses;
   if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, telling)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster, excess) &&
-         !isMixture(cluster);
+  return excess >= kLeastMisses && !isPassedBeside(cluster) && !isMixture(cluster);
 }
 
 /** \return whether the cluster may consist of returns of beams that hit two surfaces. Such points
@@ -209,39 +207,69 @@ MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
   return sum / static_cast<double>(cluster.size());
 }
 
-/** \return whether the rays of every scan that saw through most of the cluster may have passed
- * beside: seen from these scans, the cluster is narrower than the gaps between their rays.
- * Then either
- * - scans hit most of the cluster, like a pole or the top of a table; or
- * - the cluster is wide, but each of these scans sees it at a flat angle, and missed few of
- *   its places. */
+/** \return whether the rays of all scans may have passed beside the places that they missed, by
+ * chance. Rays a gap g apart miss a surface of seen extents w and h with probability
+ * 1 - min(1, w / g) min(1, h / g), independently for each scan. A surface seen at a flat angle, like
+ * the edge of a platform, has almost no width. A cluster that another scan hit, like a pole or the
+ * top of a table, is passed beside unless one of the scans must have hit it. */
 bool
-MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
-                               int excess) const
+MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
 {
-  const Eigen::Vector3d middle = middleOf(cluster);
-  std::vector<Eigen::Vector3d> places;
-  places.reserve(cluster.size());
-  for (const std::size_t place : cluster)
-    places.push_back(observed_.places[place].cast<double>());
-  const double width = widthOf(places);
-  bool is_hit = false, is_flat = true;
+  double chance = 1;
+  bool is_hit = false;
   for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j) {
-    const Observer& classify = observer_votes_.observers()[j];
-    std::size_t hit = 0, missed = 0;
+    std::size_t hit = 0;
+    std::vector<std::size_t> missed;
     for (const std::size_t place : cluster) {
       hit += votes_[place].hits >> j & 1U;
-      missed += votes_[place].misses >> j & 1U;
+      if ((votes_[place].misses >> j & 1U) != 0)
+        missed.push_back(place);
     }
     is_hit = is_hit || 2 * hit > cluster.size();
-    if (2 * missed <= cluster.size())
-      continue;
-    const double gap = classify.gapAt(middle.cast<float>());
-    if (seenWidthOf(places, classify.originInObserved().cast<double>()) >= gap)
-      return false;
-    is_flat = is_flat && width >= gap;
+    if (!missed.empty())
+      chance *= chanceToPassBeside(missed, observer_votes_.observers()[j]);
   }
-  return is_hit || (is_flat && excess < kManyMisses);
+  return chance > (is_hit ? 0 : kByChance);
+}
+
+/** \return mean square [m^2] about its middle of the surface that was measured at places. Range noise
+ * spreads the places along their rays, which is no extent of the surface. A place of a reduced scan
+ * stands for the points of its voxel, which fill it but for the gap to the next ray. */
+Eigen::Matrix3d
+MovingClusters::scatterOfSurface(const std::vector<std::size_t>& places) const
+{
+  const SeenScan& observed = observer_votes_.observed();
+  std::vector<Eigen::Vector3d> at;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const std::size_t place : places) {
+    const Eigen::Vector3f& p = observed_.places[place];
+    const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
+    at.push_back(p.cast<double>());
+    scatter -= observed_.noise * observed_.noise * ray * ray.transpose();
+    const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
+    const auto next = tree_.nearestK(p, 2);
+    if (normal.isZero() || next.size() < 2)
+      continue;
+    const double filled =
+        observed.voxel - observed_.cell * (p - observed_.origin).norm();
+    const double edge = std::min(std::max(0.0, filled),
+                                 static_cast<double>(std::sqrt(next[1].distance_sq)));
+    scatter +=
+        edge * edge / 12 * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
+  }
+  return scatterOf(at) + scatter / static_cast<double>(places.size());
+}
+
+/** \return the probability that no ray of an observer meets the surface at places */
+double
+MovingClusters::chanceToPassBeside(const std::vector<std::size_t>& places,
+                                   const Observer& observer) const
+{
+  const Eigen::Vector3d middle = middleOf(places);
+  const Eigen::Vector3d ray = middle - observer.originInObserved().cast<double>();
+  const Eigen::Vector2d extent =
+      seenExtentOf(scatterOfSurface(places), ray.normalized());
+  return 1 - (extent / observer.gapAt(middle.cast<float>())).cwiseMin(1).prod();
 }
 
 /** \return the scans that observed a dynamic object while at rest: scans that hit most of its

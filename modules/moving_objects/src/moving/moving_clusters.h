@@ -43,7 +43,12 @@ private:
   bool
   moves(const std::vector<std::size_t>& cluster) const;
   bool
-  isPassedBeside(const std::vector<std::size_t>& cluster, int excess) const;
+  isPassedBeside(const std::vector<std::size_t>& cluster) const;
+  Eigen::Matrix3d
+  scatterOfSurface(const std::vector<std::size_t>& places) const;
+  double
+  chanceToPassBeside(const std::vector<std::size_t>& places,
+                     const Observer& observer) const;
   bool
   isMixture(const std::vector<std::size_t>& cluster) const;
   Eigen::Vector3d

@@ -51,6 +51,7 @@ for option in "$@"; do
   case $option in
     --all | --werror | --part | --only) fail "$option must stand before the options of ctest" ;;
     --*)
+      command -v ctest > /dev/null || break # step 1 installs it
       name=${option%%=*}
       grep -qE -- "$name([ =,]|\$)" <(ctest --help 2>/dev/null) ||
         fail "unknown option $name (test/run.sh --help)" ;;

@@ -133,6 +133,28 @@ TEST(Recovery, BoundedRegistersAMapThatIsMostlyDisconnectedNoSecondTime)
   }
 }
 
+TEST(Recovery, ScansWithAMotionLeftOpenAreNotDisconnected)
+{
+  // Surfaces leave a motion open, and the given poses, or a tracked step, fix it: no link connects
+  // such a scan, and a search would not either.
+  pcl6d::Slam6DResult result;
+  result.scans.resize(10);
+  result.verification.emplace();
+  result.verification->scans.resize(10);
+  result.verification->scans[0].tied = true;
+  result.scans[0].state = ScanState::kFixed;
+  for (const ScanState state : {ScanState::kUnconverged, ScanState::kMatched}) {
+    for (std::size_t i = 1; i < 10; ++i) {
+      result.scans[i].state = state;
+      result.scans[i].status = pcl6d::Status::kRankDeficient;
+    }
+    EXPECT_FALSE(pcl6d::slam6d::isMostlyDisconnected(0, result));
+  }
+  for (std::size_t i = 1; i < 10; ++i)
+    result.scans[i].status = pcl6d::Status::kOk;
+  EXPECT_TRUE(pcl6d::slam6d::isMostlyDisconnected(0, result));
+}
+
 TEST(Recovery, DoesNotSearchForAScanThatNoLinkCanConfirm)
 {
   DriftingRun run = makeCorridorRun(8, 8, 0);

@@ -26,8 +26,8 @@ struct Given : po::error_with_option_name {
 std::size_t
 changedLetters(const std::string& a, const std::string& b)
 {
-  std::vector<std::size_t> changes(b.size() +
-                                   1); // from the letters of a so far to b[0, k)
+  // At k: changed letters from the part of a so far to b[0, k).
+  std::vector<std::size_t> changes(b.size() + 1);
   for (std::size_t k = 0; k <= b.size(); ++k)
     changes[k] = k;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -48,6 +48,7 @@ verifyMap(const VerifySettings& s, const VerifySource& source)
   MapVerifierOptions options;
   options.num_threads = s.num_threads;
   options.unsure = source.unsure;
+  options.unregistered = source.unregistered;
   MapVerification map =
       MapVerifier(source.scans.scans(), source.names, options).verify(source.poses);
   boundPoses(source.poses, map, s.num_threads);

@@ -29,7 +29,7 @@ struct Listing {
   std::vector<Eigen::Isometry3d> poses; ///< in full coordinates
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero();
   std::string pose_source;
-  std::vector<bool> unsure;
+  std::vector<bool> unsure, unregistered;
   ScanParameterOptions parameters;
   std::function<Points(std::size_t)> read; ///< reads a scan in the frame of its pose
 };
@@ -110,6 +110,18 @@ unsureOf(const RunResult& run, const std::vector<std::size_t>& indices)
   return unsure;
 }
 
+/** \return per scan whether the run could not match it: its pose is a prediction */
+std::vector<bool>
+unregisteredOf(const RunResult& run, const std::vector<std::size_t>& indices)
+{
+  std::vector<bool> unregistered(indices.size());
+  for (const ScanResult& scan : run.scans)
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      if (static_cast<std::size_t>(scan.index) == indices[i])
+        unregistered[i] = scan.state == ScanState::kPredicted;
+  return unregistered;
+}
+
 Listing
 listFolder(const VerifySettings& s, ProgressBar& bar)
 {
@@ -139,8 +151,10 @@ listFolder(const VerifySettings& s, ProgressBar& bar)
         lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
         lengthOf(*scans.summary(), "voxel", s.parameters.voxel),
         s.parameters.line_spacing};
-  if (scans.summary() && s.poses.empty())
+  if (scans.summary() && s.poses.empty()) {
     listing.unsure = unsureOf(*scans.summary(), listing.indices);
+    listing.unregistered = unregisteredOf(*scans.summary(), listing.indices);
+  }
   if (!s.poses.empty())
     replacePoses(s.poses, scans, listing);
   listing.read = [opened](std::size_t i) {
@@ -242,6 +256,7 @@ loadVerifySource(const VerifySettings& s, ProgressBar& bar, const Interrupt& int
                       listing.world_offset,
                       listing.pose_source,
                       listing.unsure,
+                      listing.unregistered,
                       std::move(prepared)};
 }
 

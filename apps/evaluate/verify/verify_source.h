@@ -24,6 +24,8 @@ struct VerifySource {
   std::string pose_source;                                ///< for people
   /** per scan: found by place recognition alone; empty: no scan was */
   std::vector<bool> unsure;
+  /** per scan: its pose is a prediction of the run; empty: no scan's is */
+  std::vector<bool> unregistered;
   PreparedScans scans;
 };
 

@@ -271,6 +271,29 @@ TEST(EvaluateVerify, TakesARunInWhichNothingMoved)
   expectVerdict(verify({run}), 0, "unverified");
 }
 
+TEST(EvaluateVerify, AScanThatTheRunCouldNotMatchIsNotConnected)
+{
+  const TempFolder folder;
+  const std::string run = folder / "run";
+  const Outcome made = pcl6d::test::runProgram("pcl_slam6d",
+                                               {drive().scans(),
+                                                "--poses",
+                                                drive() / "groundtruth.txt",
+                                                "-o",
+                                                run,
+                                                "--no-picture",
+                                                "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  expectVerdict(verify({run}), 0, "good");
+  Json summary = Json::parse(readText(run + "/summary.json"));
+  summary["scans"][3]["state"] = "predicted"; // the pose is the true one
+  writeText(run + "/summary.json", summary.dump());
+  expectVerdict(verify({run, "-o", folder / "out"}), 3, "doubtful");
+  const Json scans = Json::parse(readText(folder / "out/verification.json"))["scans"];
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    EXPECT_EQ(scans[i]["connected"], i != 3) << i;
+}
+
 TEST(EvaluateVerify, NamesWhatIsWrongWithTheInput)
 {
   const std::string a = drive().scan(0), b = drive().scan(1);

@@ -12,6 +12,10 @@ namespace {
 /** Number of scans of a block, evenly chosen, tested individually at the new pose: a large
  * block then takes no longer than a few scans. */
 constexpr std::size_t kAskedOfBlock = 12;
+
+/** Number of groups grown from all scans because they compete for scans of another group. Each takes
+ * about a third of the time of everything else. */
+constexpr int kCompetitors = 2;
 } // namespace
 
 Joiner::Joiner(const ScanList& scans,
@@ -124,10 +128,10 @@ Joiner::leaveTorn()
   dropSingles();
 }
 
-/** \return whether a scan of a group has a place in another group that speaks against its own.
- * The other group does, as a second pose of a scan does, if it is not much smaller where it grows
- * from all scans, and if it is not the same group, found again: the scans that both place alike
- * stay. */
+/** \return whether a scan of a group fits into another group, too, and this contradicts its pose. A
+ * group does that only if it is not much smaller than the own one once both are grown from all
+ * scans. If most of its scans have the same relative poses in both, the two are one group, found
+ * twice, and these scans stay. */
 bool
 Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& other)
 {
@@ -141,6 +145,8 @@ Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& ot
   if (hasKnown() || members.size() < 2)
     return true;
   if (!other.alone) {
+    if (++num_competitors_ > kCompetitors)
+      return true;
     PlaceHypothesis seed;
     seed.first = members[0].scan;
     seed.second = members[1].scan;
@@ -155,8 +161,8 @@ Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& ot
          placedAlike(own.scans.members(), *other.alone, are_same).count(scan) == 0;
 }
 
-/** \return whether a group can be a second explanation of the scans of another: true where that
- * was not asked */
+/** \return whether a group is large enough to be a second explanation of the scans of another; true
+ * if it was not yet grown from all scans */
 bool
 Joiner::mayExplain(const JoinedGroup& other, const JoinedGroup& own) const
 {

@@ -20,7 +20,8 @@ namespace pcl6d::global_registration {
 struct JoinedGroup {
   ScanGroup scans;
   Rejection rejection;
-  /** What it has when it grows from all scans, in a frame of its own, once that was asked. */
+  /** Its scans if it grows from its seed with all scans available, in a frame of its own; none: not
+   * known yet */
   std::optional<std::vector<PlacedScan>> alone;
 };
 
@@ -138,6 +139,7 @@ private:
   std::vector<RankedPair> ranked_;
   std::set<ScanPlaces> placed_; // pairs
   Grown grown_;
+  int num_competitors_ = 0; // groups grown from all scans by isAnotherPlace()
 };
 
 } // namespace pcl6d::global_registration

@@ -26,8 +26,8 @@ constexpr double kNearSigmas = 6;
  * each, the least number of points in a patch of sightEvidence(). Fewer may be chance. */
 constexpr int kLeastMisses = 8;
 
-/** Largest probability that the rays of all scans passed beside a cluster by chance: the share of
- * wrong decisions accepted elsewhere for 95 %. */
+/** Largest probability that the rays of all scans passed beside a cluster by chance: 5 %, as in the
+ * other tests. */
 constexpr double kByChance = 0.05;
 
 /** A cluster with hits is dynamic if at least this number of scans saw through most of its

@@ -45,7 +45,8 @@ isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);
 
 /** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
  * lack features, most of the next scans lack features, too.
- * \param[in] is_bounded limits the time of failed searches to the time of matching
+ * \param[in] is_bounded limits the time of failed searches to the time of matching; scans that were
+ * not searched for count as failed
  * \return whether to search for a lost scan far from its prediction, too */
 PCL6D_EXPORTS bool // exported for its test
 isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded);

@@ -18,12 +18,12 @@ isWithFirst(const Slam6DResult& result, std::size_t scan)
   return checks[scan].tied == checks[0].tied && (scan == 0 || checks[0].tied);
 }
 
-/** \return whether a motion of the scan is that of the given poses, as surfaces leave it open: no
- * link could connect it, and another search would not either */
+/** \return whether a motion of the scan is that of the given poses, or of a tracked step, as surfaces
+ * leave it open: no link could connect it, and another search would not either */
 bool
 isHeld(const ScanResult& scan)
 {
-  return scan.state == ScanState::kUnconverged && scan.status == Status::kRankDeficient;
+  return isRegistered(scan) && scan.status == Status::kRankDeficient;
 }
 
 /** \return whether the scan is connected, or has a consistent link to a scan that is not either: a

@@ -29,7 +29,8 @@ std::size_t
 countConnected(const Slam6DResult& result);
 
 /** \return whether more scans are connected than before
- * \param[in] connected for each scan; those registered, if not yet verified: at most they are */
+ * \param[in] connected for each scan; before the verification whether it is registered, as no other
+ * can be connected */
 bool
 isBetterConnected(const std::vector<bool>& connected, std::size_t before);
 

@@ -59,7 +59,7 @@ enum class RejectReason {
   kTooFewSurfaces,   ///< of a scan, or its rays contradict its own points
   kRaysUnreliable,   ///< rays contradict even the best links of the map
   kSamePoints,       ///< both scans hold the same points
-  kScanUnregistered, ///< a scan of the link is not registered
+  kScanUnregistered, ///< the scan, or one of the link, is not registered
   kContradictsLinks, ///< switched off by the other links
   kContradictsLoops, ///< neighbouring loops that contradict the link; that agree
   kSurfacePassed,    ///< share of points near surfaces; least share

@@ -25,9 +25,9 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief State of a scan after registration. */
 enum class ScanState {
-  kPending,     ///< not yet registered; the pose is predicted from the odometry
-  kFixed,       ///< the first scan: the pose is fixed
-  kMatched,     ///< registered, and ICP converged
+  kPending, ///< not yet registered; the pose is predicted from the odometry
+  kFixed,   ///< the first scan: the pose is fixed
+  kMatched, ///< registered, and ICP converged; tracking may have fixed a motion left open
   kUnconverged, ///< registered, but ICP stopped at the iteration limit
   kPredicted,   ///< could not be matched; the pose is predicted from the odometry
   kUnknown      ///< of a run without a summary

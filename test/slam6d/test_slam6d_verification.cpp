@@ -256,9 +256,9 @@ TEST(Slam6DVerification, NamesAllScansBehindAJumpOfTheOdometry)
   EXPECT_EQ(result.verification->trust, MapTrust::kDoubtful);
   EXPECT_FALSE(result.trusted());
   std::set<std::size_t> expected = {8, 9, 10, 11, 12, 13};
+  // Scans that were not matched are not connected either.
   for (std::size_t i = 0; i < 8; ++i)
-    if (result.scans[i].state ==
-        ScanState::kPredicted) // not matched, hence not connected
+    if (result.scans[i].state == ScanState::kPredicted)
       expected.insert(i);
   EXPECT_LT(expected.size(), 8u);
   EXPECT_EQ(looseOf(*result.verification), expected);

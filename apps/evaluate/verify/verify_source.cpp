@@ -29,7 +29,7 @@ struct Listing {
   std::vector<Eigen::Isometry3d> poses; ///< in full coordinates
   Eigen::Vector3d world_offset = Eigen::Vector3d::Zero();
   std::string pose_source;
-  std::vector<bool> unsure, unregistered;
+  std::vector<bool> unsure, unregistered; ///< as in VerifySource
   ScanParameterOptions parameters;
   std::function<Points(std::size_t)> read; ///< reads a scan in the frame of its pose
 };
@@ -98,28 +98,19 @@ lengthOf(const RunResult& run,
   return given;
 }
 
-/** \return per scan whether the run found its pose without an initial pose */
-std::vector<bool>
-unsureOf(const RunResult& run, const std::vector<std::size_t>& indices)
+/** Takes over what a run tells of its scans. */
+void
+takeFrom(const RunResult& run, Listing& listing)
 {
-  std::vector<bool> unsure(indices.size());
+  const std::size_t count = listing.indices.size();
+  listing.unsure.resize(count);
+  listing.unregistered.resize(count);
   for (const ScanResult& scan : run.scans)
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      if (static_cast<std::size_t>(scan.index) == indices[i])
-        unsure[i] = isWithoutPrior(scan.start);
-  return unsure;
-}
-
-/** \return per scan whether the run could not match it: its pose is a prediction */
-std::vector<bool>
-unregisteredOf(const RunResult& run, const std::vector<std::size_t>& indices)
-{
-  std::vector<bool> unregistered(indices.size());
-  for (const ScanResult& scan : run.scans)
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      if (static_cast<std::size_t>(scan.index) == indices[i])
-        unregistered[i] = scan.state == ScanState::kPredicted;
-  return unregistered;
+    for (std::size_t i = 0; i < count; ++i)
+      if (static_cast<std::size_t>(scan.index) == listing.indices[i]) {
+        listing.unsure[i] = isWithoutPrior(scan.start);
+        listing.unregistered[i] = scan.state == ScanState::kPredicted;
+      }
 }
 
 Listing
@@ -151,10 +142,8 @@ listFolder(const VerifySettings& s, ProgressBar& bar)
         lengthOf(*scans.summary(), "max-range", s.parameters.max_range),
         lengthOf(*scans.summary(), "voxel", s.parameters.voxel),
         s.parameters.line_spacing};
-  if (scans.summary() && s.poses.empty()) {
-    listing.unsure = unsureOf(*scans.summary(), listing.indices);
-    listing.unregistered = unregisteredOf(*scans.summary(), listing.indices);
-  }
+  if (scans.summary() && s.poses.empty())
+    takeFrom(*scans.summary(), listing);
   if (!s.poses.empty())
     replacePoses(s.poses, scans, listing);
   listing.read = [opened](std::size_t i) {

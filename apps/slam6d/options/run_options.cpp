@@ -3,7 +3,6 @@
 #include "slam6d/options/plugin_words.h"
 #include "slam6d/options/run_options.h"
 
-#include <pcl6d/common/error.h>
 #include <pcl6d/io/text.h>
 #include <pcl6d/run/run_summary.h>
 
@@ -55,9 +54,7 @@ optionsOfRun(const std::string& run,
              bool has_plugins)
 {
   const std::filesystem::path file = std::filesystem::path(run) / "summary.json";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw IoFailed(run + ": holds no run of pcl_slam6d (no summary.json)");
+  requireRun(run);
   const RunResult earlier = readRunSummary(file);
   requireNames(earlier, file);
   BroughtOptions brought{file.string(), {}};

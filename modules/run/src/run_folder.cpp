@@ -81,9 +81,7 @@ RunFolder::RunFolder(const fs::path& path, RunResult result)
 RunFolder
 RunFolder::finished(const fs::path& path, const std::string& unfinished)
 {
-  std::error_code error;
-  if (!fs::exists(path / kSummary, error))
-    text::fail(path, "holds no run of pcl_slam6d (no summary.json)");
+  requireRun(path);
   const RunFolder run(path, readRunSummary(path / kSummary));
   run.requireSizes();
   if (!run.summary().complete)

@@ -210,4 +210,12 @@ readRunSummary(const std::filesystem::path& path)
   return run_files::runFrom(parseJson(text::readFile(path), path.string()));
 }
 
+void
+requireRun(const std::filesystem::path& folder)
+{
+  std::error_code error;
+  if (!std::filesystem::exists(folder / "summary.json", error))
+    text::fail(folder, "holds no run of pcl_slam6d (no summary.json)");
+}
+
 } // namespace pcl6d

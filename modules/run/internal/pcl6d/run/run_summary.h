@@ -20,4 +20,8 @@ writeRunSummary(const std::filesystem::path& path, const RunResult& result);
 RunResult
 readRunSummary(const std::filesystem::path& path);
 
+/** \throws IoFailed the folder has no summary.json, hence holds no run */
+void
+requireRun(const std::filesystem::path& folder);
+
 } // namespace pcl6d

@@ -224,6 +224,31 @@ TEST(RangeErrorModel, RaysFillTheSpotEvenly)
   }
 }
 
+// A spot of few rays that lies aside of its axis is a scanner with wrong elevations.
+TEST(RangeErrorModel, TheSpotLiesAboutItsAxisHoweverFewItsRays)
+{
+  for (const int rays : {1, 2, 3, 7, 19}) {
+    RangeOptions options = exact();
+    options.beam = {0.02, 5e-3, rays, kInfinity};
+    const RangeErrorModel model(options);
+    const pcl6d::Ray axis{{1, 2, 3}, Eigen::Vector3d(1, -2, 0.5).normalized()};
+    for (const double range : {0.0, 20.0}) {
+      const double radius = pcl6d::footprintDiameter(range, 0.02, 5e-3) / 2;
+      const Eigen::Vector3d centre = axis.origin + range * axis.direction;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (int i = 0; i < rays; ++i) {
+        const pcl6d::Ray ray = model.ray(axis, i);
+        const double way = (centre - ray.origin).dot(axis.direction) /
+                           ray.direction.dot(axis.direction);
+        const Eigen::Vector3d aside = ray.origin + way * ray.direction - centre;
+        EXPECT_LT(aside.norm(), radius * (1 + 1e-12)) << rays << " rays";
+        sum += aside;
+      }
+      EXPECT_LT(sum.norm() / rays, 1e-12) << rays << " rays at " << range << " m";
+    }
+  }
+}
+
 TEST(RangeErrorModel, MixesEchoesByTheirLight)
 {
   RangeOptions options = exact();

@@ -261,6 +261,45 @@ TEST_F(MapOfARoom, DoesNotConnectAnUnregisteredScanEvenAtTheTruth)
   EXPECT_EQ(map.doubts[0].text, "scan 2");
 }
 
+TEST(MapOfTwoRooms, IsNotConnectedByAnUnregisteredScan)
+{
+  // Two rooms with a wall between them, 3 scans in each; scan 3 has rays of both, so that its links
+  // to either room are consistent.
+  const Eigen::Isometry3d T_world_other = Eigen::Isometry3d(Eigen::Translation3d(30, 0, 0));
+  const PillarRoom room;
+  Random random(12);
+  VerifiedScans scans;
+  Poses poses;
+  const auto add = [&](std::size_t pose, const Eigen::Isometry3d& T_world_room) {
+    scans.add(room.scan(roomPoses()[pose], random, 0.04));
+    poses.push_back(T_world_room * roomPoses()[pose]);
+  };
+  for (const std::size_t pose : {0U, 1U, 2U})
+    add(pose, Eigen::Isometry3d::Identity());
+  pcl6d::Points both = room.scan(roomPoses()[3], random, 0.04);
+  for (const auto& p : room.scan(roomPoses()[3], random, 0.04))
+    both.push_back(
+        (roomPoses()[3].inverse() * T_world_other * roomPoses()[3] * p.cast<double>())
+            .cast<float>());
+  scans.add(both);
+  poses.push_back(roomPoses()[3]);
+  for (const std::size_t pose : {4U, 5U})
+    add(pose, T_world_other);
+  MapVerifierOptions options;
+  options.unregistered.assign(poses.size(), false);
+  const auto connected = [&] {
+    const MapVerification map =
+        MapVerifier(scans.all(), namesOf(poses.size()), options).verify(poses);
+    std::vector<bool> tied;
+    for (const auto& scan : map.scans)
+      tied.push_back(scan.tied);
+    return tied;
+  };
+  EXPECT_EQ(connected(), std::vector<bool>(6, true));
+  options.unregistered[3] = true;
+  EXPECT_EQ(connected(), (std::vector<bool>{true, true, true, false, false, false}));
+}
+
 TEST_F(MapOfARoom, RefusesWrongNumbersOfNamesAndPosesAndLinks)
 {
   EXPECT_EQ(badArgumentOf([&] { MapVerifier(scans->all(), namesOf(2)); }),

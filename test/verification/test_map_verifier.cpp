@@ -111,6 +111,26 @@ TEST_F(MapOfARoom, IsNotProbedUnlessItIsKept)
   }
 }
 
+TEST(MapOfAnEmptyRoom, IsNotSearchedForSecondPosesUnlessItIsKept)
+{
+  PillarRoom room; // half a turn maps it to itself
+  room.pillars.clear();
+  Random random(14);
+  VerifiedScans scans;
+  for (const auto& pose : roomPoses())
+    scans.add(room.scan(pose, random, 0.04));
+  for (const bool is_kept : {true, false}) {
+    MapVerifierOptions options;
+    options.unsure.assign(kRoomScans, true);
+    options.is_kept = [&](const std::vector<bool>&) { return is_kept; };
+    const MapVerification map =
+        MapVerifier(scans.all(), namesOf(kRoomScans), options).verify(roomPoses());
+    EXPECT_EQ(map.trust, is_kept ? MapTrust::kAmbiguous : MapTrust::kGood);
+    for (const auto& scan : map.scans)
+      EXPECT_TRUE(scan.tied);
+  }
+}
+
 TEST_F(MapOfARoom, JudgesEachScanWithTheOneBeforeAndAFewMore)
 {
   MapVerifierOptions options;

@@ -283,9 +283,9 @@ TEST_F(MapOfARoom, DoesNotConnectAnUnregisteredScanEvenAtTheTruth)
 
 TEST(MapOfTwoRooms, IsNotConnectedByAnUnregisteredScan)
 {
-  // Two rooms with a wall between them, 3 scans in each; scan 3 has rays of both, so that its links
-  // to either room are consistent.
-  const Eigen::Isometry3d T_world_other = Eigen::Isometry3d(Eigen::Translation3d(30, 0, 0));
+  // Two rooms 30 m apart, with three and two scans; scan 3 has the points of both rooms, so that its
+  // links to either room are consistent.
+  const Eigen::Isometry3d T_world_other(Eigen::Translation3d(30, 0, 0));
   const PillarRoom room;
   Random random(12);
   VerifiedScans scans;

@@ -371,10 +371,8 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   }
   if (scans_.empty())
     return map;
-  const verification::Ties ties =
-      verification::tiesOf(scans_.size(),
-                           connectingLinks(map.links, options_.unregistered),
-                           map.background);
+  const verification::Ties ties = verification::tiesOf(
+      scans_.size(), connectingLinks(map.links, options_.unregistered), map.background);
   for (std::size_t k = 0; k < map.links.size(); ++k)
     if (ties.cut[k] && map.links[k].trust == LinkTrust::kGood) {
       map.links[k].trust = LinkTrust::kWeak;

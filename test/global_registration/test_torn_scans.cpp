@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 
 using pcl6d::global_registration::inTreeOrder;
 using pcl6d::global_registration::JoinedBy;
+using pcl6d::global_registration::mayExplain;
 using pcl6d::global_registration::partBehind;
 using pcl6d::global_registration::placedAlike;
 using pcl6d::global_registration::PlacedScan;
@@ -130,6 +132,20 @@ TEST(InTreeOrder, LosesNoScanWhereOneWasJoinedAnewByWayOfWhatFollowedIt)
   const JoinedBy cycle = {{2, 1}, {1, 2}, {3, 3}, {4, 99}};
   EXPECT_EQ(inTreeOrder({0, 2, 1, 3, 4}, cycle),
             (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(MayExplain, IsAskedOfAGroupThatIsNotMuchSmaller)
+{
+  EXPECT_TRUE(mayExplain(7, 7, 10, 0.6));
+  EXPECT_FALSE(mayExplain(6, 6, 10, 0.6)) << "just as many as the ratio allows";
+  EXPECT_FALSE(mayExplain(2, 3, 10, 0.6));
+  EXPECT_TRUE(mayExplain(12, 1, 10, 0.6)) << "larger than the other group";
+}
+
+TEST(MayExplain, CountsWhatAGroupHasWithAllScansAvailable)
+{
+  EXPECT_TRUE(mayExplain(2, 9, 10, 0.6)) << "the other group took its scans away";
+  EXPECT_TRUE(mayExplain(2, std::nullopt, 10, 0.6)) << "not known yet: to be grown";
 }
 
 TEST(PlacedAlike, IsWhatTwoGroupsPlaceTheSameWayInFramesOfTheirOwn)

@@ -187,6 +187,26 @@ TEST(OpenDirections, AMeasuredStepFixesTheOpenMotion)
   }
 }
 
+// A scan that is refused on the way leaves nothing behind: each step keeps its own statement.
+TEST(OpenDirections, ARefusedScanMovesNoMeasuredStep)
+{
+  const DriftingRun run = tunnelRun();
+  const pcl6d::Points inside_the_gate(10, {0.01F, 0, 0});
+  pcl6d::Slam6D slam;
+  slam.addScan(run.scans[0], run.odometry[0]);
+  EXPECT_TRUE(slam.optimize()); // derives the range gate
+  for (std::size_t i = 1; i < run.scans.size(); ++i) {
+    EXPECT_THROW(slam.addScan(inside_the_gate, run.odometry[i], "", i == 3),
+                 pcl6d::ComputeFailed);
+    slam.addScan(run.scans[i], run.odometry[i], "", i != 3);
+  }
+  EXPECT_TRUE(slam.optimize());
+  for (std::size_t i = 1; i < run.scans.size(); ++i)
+    EXPECT_EQ(slam.result().scans[i].state,
+              i == 3 ? ScanState::kUnconverged : ScanState::kMatched)
+        << i;
+}
+
 /** \return a model of the walls of a hall, and of floor in 16 places, 0.4 % of the points
  * \param[in] patch [m] distance of the places */
 pcl6d::IcpModel

@@ -187,6 +187,23 @@ TEST_F(RunJournalTest, AChangedScanIsNamed)
   }
 }
 
+TEST_F(RunJournalTest, AStepMeasuredByTrackingIsAnotherInput)
+{
+  interruptedRun(4);
+  auto second = journal();
+  Slam6D slam;
+  slam.setMemory(&second);
+  for (std::size_t i = 0; i < journalRun().scans.size(); ++i)
+    slam.addScan(journalRun().scans[i], journalRun().odometry[i], "", i == 2);
+  try {
+    slam.optimize();
+    FAIL() << "a scan with a measured step was taken for one without";
+  } catch (const IoFailed& e) {
+    EXPECT_NE(std::string(e.what()).find("c.pcd: has changed"), std::string::npos)
+        << e.what();
+  }
+}
+
 TEST_F(RunJournalTest, OtherConditionsAreNamed)
 {
   interruptedRun(2);

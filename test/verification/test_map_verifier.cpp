@@ -111,6 +111,26 @@ TEST_F(MapOfARoom, IsNotProbedUnlessItIsKept)
   }
 }
 
+TEST(MapOfAnEmptyRoom, IsNotSearchedForSecondPosesUnlessItIsKept)
+{
+  PillarRoom room; // half a turn maps it to itself
+  room.pillars.clear();
+  Random random(14);
+  VerifiedScans scans;
+  for (const auto& pose : roomPoses())
+    scans.add(room.scan(pose, random, 0.04));
+  for (const bool is_kept : {true, false}) {
+    MapVerifierOptions options;
+    options.unsure.assign(kRoomScans, true);
+    options.is_kept = [&](const std::vector<bool>&) { return is_kept; };
+    const MapVerification map =
+        MapVerifier(scans.all(), namesOf(kRoomScans), options).verify(roomPoses());
+    EXPECT_EQ(map.trust, is_kept ? MapTrust::kAmbiguous : MapTrust::kGood);
+    for (const auto& scan : map.scans)
+      EXPECT_TRUE(scan.tied);
+  }
+}
+
 TEST_F(MapOfARoom, JudgesEachScanWithTheOneBeforeAndAFewMore)
 {
   MapVerifierOptions options;
@@ -259,6 +279,45 @@ TEST_F(MapOfARoom, DoesNotConnectAnUnregisteredScanEvenAtTheTruth)
   ASSERT_EQ(map.doubts.size(), 1U);
   EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansDisconnected);
   EXPECT_EQ(map.doubts[0].text, "scan 2");
+}
+
+TEST(MapOfTwoRooms, IsNotConnectedByAnUnregisteredScan)
+{
+  // Two rooms 30 m apart, with three and two scans; scan 3 has the points of both rooms, so that its
+  // links to either room are consistent.
+  const Eigen::Isometry3d T_world_other(Eigen::Translation3d(30, 0, 0));
+  const PillarRoom room;
+  Random random(12);
+  VerifiedScans scans;
+  Poses poses;
+  const auto add = [&](std::size_t pose, const Eigen::Isometry3d& T_world_room) {
+    scans.add(room.scan(roomPoses()[pose], random, 0.04));
+    poses.push_back(T_world_room * roomPoses()[pose]);
+  };
+  for (const std::size_t pose : {0U, 1U, 2U})
+    add(pose, Eigen::Isometry3d::Identity());
+  pcl6d::Points both = room.scan(roomPoses()[3], random, 0.04);
+  for (const auto& p : room.scan(roomPoses()[3], random, 0.04))
+    both.push_back(
+        (roomPoses()[3].inverse() * T_world_other * roomPoses()[3] * p.cast<double>())
+            .cast<float>());
+  scans.add(both);
+  poses.push_back(roomPoses()[3]);
+  for (const std::size_t pose : {4U, 5U})
+    add(pose, T_world_other);
+  MapVerifierOptions options;
+  options.unregistered.assign(poses.size(), false);
+  const auto connected = [&] {
+    const MapVerification map =
+        MapVerifier(scans.all(), namesOf(poses.size()), options).verify(poses);
+    std::vector<bool> tied;
+    for (const auto& scan : map.scans)
+      tied.push_back(scan.tied);
+    return tied;
+  };
+  EXPECT_EQ(connected(), std::vector<bool>(6, true));
+  options.unregistered[3] = true;
+  EXPECT_EQ(connected(), (std::vector<bool>{true, true, true, false, false, false}));
 }
 
 TEST_F(MapOfARoom, RefusesWrongNumbersOfNamesAndPosesAndLinks)

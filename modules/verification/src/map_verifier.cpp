@@ -104,6 +104,25 @@ surestLinkOf(std::size_t scan, const MapVerification& map)
   return most;
 }
 
+bool
+isUnregistered(std::size_t scan, const std::vector<bool>& unregistered)
+{
+  return !unregistered.empty() && unregistered[scan];
+}
+
+/** \return the links as they connect scans: a link of an unregistered scan connects nothing. Its pose
+ * is a prediction, and would connect two parts of the map that no link of registered scans
+ * connects */
+std::vector<LinkCheck>
+connectingLinks(std::vector<LinkCheck> links, const std::vector<bool>& unregistered)
+{
+  for (LinkCheck& link : links)
+    if (isUnregistered(link.from, unregistered) ||
+        isUnregistered(link.to, unregistered))
+      link.trust = LinkTrust::kWeak;
+  return links;
+}
+
 /** \return the index of the link between two scans, which exists */
 std::size_t
 linkBetween(std::size_t scan, std::size_t other, const MapVerification& map)
@@ -299,21 +318,26 @@ MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
 }
 
 /** Sets which scans are connected and have usable rays. Links with a predicted pose may be consistent
- * by chance, or inconclusive: they do not connect the scan. */
+ * by chance, or inconclusive: they neither connect the scan nor others by way of it. */
 void
 MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) const
 {
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
-    const bool is_unregistered =
-        !options_.unregistered.empty() && options_.unregistered[i];
     scan.abstains = scans_[i].abstains();
     scan.off_centre = scans_[i].isOffCentre();
-    scan.tied = ties.tied[i] && !is_unregistered;
-    if (!ties.tied[i])
+    scan.tied = ties.tied[i];
+    if (!scan.tied)
       scan.doubt = ties.cut_from[i];
-    else if (is_unregistered)
-      scan.doubt = RejectReason::kScanUnregistered;
+  }
+  for (const LinkCheck& link : map.links) {
+    if (link.trust != LinkTrust::kGood && link.trust != LinkTrust::kUnverified)
+      continue;
+    for (const auto& [scan, other] :
+         {std::pair(link.from, link.to), std::pair(link.to, link.from)})
+      if (isUnregistered(scan, options_.unregistered) &&
+          !isUnregistered(other, options_.unregistered))
+        map.scans[scan].doubt = RejectReason::kScanUnregistered;
   }
 }
 
@@ -347,8 +371,8 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
   }
   if (scans_.empty())
     return map;
-  const verification::Ties ties =
-      verification::tiesOf(scans_.size(), map.links, map.background);
+  const verification::Ties ties = verification::tiesOf(
+      scans_.size(), connectingLinks(map.links, options_.unregistered), map.background);
   for (std::size_t k = 0; k < map.links.size(); ++k)
     if (ties.cut[k] && map.links[k].trust == LinkTrust::kGood) {
       map.links[k].trust = LinkTrust::kWeak;

@@ -161,16 +161,15 @@ Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& ot
          placedAlike(own.scans.members(), *other.alone, are_same).count(scan) == 0;
 }
 
-/** \return whether a group is large enough to be a second explanation of the scans of another; true
- * if it was not yet grown from all scans */
 bool
 Joiner::mayExplain(const JoinedGroup& other, const JoinedGroup& own) const
 {
-  if (!other.alone)
-    return true;
-  const std::size_t size = std::max(other.scans.members().size(), other.alone->size());
-  return static_cast<double>(size) >
-         options_.max_ambiguity * static_cast<double>(own.scans.members().size());
+  const auto alone =
+      other.alone ? std::make_optional(other.alone->size()) : std::nullopt;
+  return global_registration::mayExplain(other.scans.members().size(),
+                                         alone,
+                                         own.scans.members().size(),
+                                         options_.max_ambiguity);
 }
 
 /** A group with a single remaining scan is dissolved. */

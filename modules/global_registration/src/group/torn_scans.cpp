@@ -81,6 +81,16 @@ tornScans(const std::vector<std::vector<std::size_t>>& groups,
   return all;
 }
 
+bool
+mayExplain(std::size_t size,
+           std::optional<std::size_t> alone,
+           std::size_t own,
+           double max_ambiguity)
+{
+  return !alone || static_cast<double>(std::max(size, *alone)) >
+                       max_ambiguity * static_cast<double>(own);
+}
+
 std::set<std::size_t>
 placedAlike(const std::vector<PlacedScan>& group,
             const std::vector<PlacedScan>& other,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -21,6 +22,18 @@ std::set<std::size_t>
 tornScans(const std::vector<std::vector<std::size_t>>& groups,
           const JoinedBy& joined_by,
           const std::function<bool(std::size_t scan, std::size_t group)>& has_place);
+
+/** \brief Size of a group as a second explanation of the scans of another group.
+ * \param[in] size, own number of scans of the group, and of the other group
+ * \param[in] alone number of scans of the group if it grows with all scans available; none: not
+ * known yet
+ * \param[in] max_ambiguity JoinOptions::max_ambiguity
+ * \return whether the group is large enough; true as long as `alone` is not known */
+bool
+mayExplain(std::size_t size,
+           std::optional<std::size_t> alone,
+           std::size_t own,
+           double max_ambiguity);
 
 /** \brief Compares the poses of scans that are in both of two groups, each with a frame of its own.
  * \param[in] are_same whether two poses of a scan are equal within its tolerance

@@ -65,6 +65,13 @@ public:
     return sweep;
   }
 
+  /** \return the range [m] along a ray of unit length, without noise */
+  double
+  range(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) const
+  {
+    return room_.range(origin, ray);
+  }
+
   /** \return sweeps without a pause, from time 0 */
   std::vector<Sweep>
   drive(std::size_t count, double speed = 1.5)

@@ -259,3 +259,84 @@ TEST(SweepTracker, PosesAreAtTheStampsWhereverTimesBegin)
         0.01)
         << i;
 }
+
+// The turn slows down within the first sweep: the motion to the second one does not describe it, and
+// would leave the first sweep turned by 0.03 rad against the others.
+TEST(SweepTracker, ADriveMayBeginInATurn)
+{
+  const auto pose = [](double time) {
+    const double turn = 0.06 * (1 - std::exp(-time / 0.03));
+    return Eigen::Isometry3d(CorridorSweeps::poseAt(time) *
+                             Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+  };
+  CorridorSweeps corridor;
+  pcl6d::SweepTracker tracker;
+  TrackedSweep last;
+  constexpr int kCount = 24;
+  for (int i = 0; i < kCount; ++i)
+    last = tracker.track(corridor.sweepAlong(pose, kSweepTime * i));
+  const auto& opening = tracker.openingOfSegment();
+  ASSERT_EQ(opening.size(), 10U);
+  EXPECT_EQ(opening[0].status, SweepStatus::kFirst);
+  EXPECT_TRUE(opening[0].is_keyframe);
+  EXPECT_EQ(opening[9].status, SweepStatus::kTracked);
+  const Eigen::Isometry3d truth = pose(0).inverse() * pose(kSweepTime * (kCount - 1));
+  const auto error =
+      distanceBetween(truth, opening[0].T_world_sweep.inverse() * last.T_world_sweep);
+  EXPECT_LT(error.rotation, 0.01);
+  EXPECT_LT(error.translation, 0.05);
+}
+
+TEST(SweepTracker, WithoutTimesTheOpeningStaysAsTracked)
+{
+  CorridorSweeps corridor;
+  pcl6d::SweepTracker tracker;
+  std::vector<TrackedSweep> tracked;
+  for (Sweep sweep : corridor.drive(24)) {
+    sweep.times.clear();
+    tracked.push_back(tracker.track(sweep));
+  }
+  const auto& opening = tracker.openingOfSegment();
+  ASSERT_EQ(opening.size(), 10U);
+  for (std::size_t i = 0; i < opening.size(); ++i)
+    EXPECT_EQ(opening[i].T_world_sweep.matrix(), tracked[i].T_world_sweep.matrix())
+        << i;
+}
+
+// A spinning sensor at 6 m/s turns and moves within a sweep: raw points are off by 40 cm.
+TEST(SweepTracker, ThinnedPointsAreWithoutTheMotionWithinTheSweep)
+{
+  constexpr double kFast = 6;
+  CorridorSweeps corridor;
+  const auto tracked = trackAll(corridor.drive(40, kFast));
+  const Eigen::Isometry3d T_world_sensor = CorridorSweeps::poseAt(3.9, kFast);
+  const auto& points = tracked.back().thinned;
+  ASSERT_GT(points.size(), 1000U);
+  std::vector<double> errors;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d ray = point.cast<double>();
+    errors.push_back(std::abs(
+        ray.norm() - corridor.range(T_world_sensor.translation(),
+                                    T_world_sensor.linear() * ray.normalized())));
+  }
+  EXPECT_LT(pcl6d::upperMedian(errors), 0.02);
+  Sweep none;
+  pcl6d::SweepTracker tracker;
+  EXPECT_TRUE(tracker.track(none).thinned.empty());
+}
+
+// 24 rings, 2.5 degrees apart, need several sweeps; rings a fifth of that apart need one.
+TEST(SweepTracker, DenseSweepsNeedNoOthersForASurface)
+{
+  CorridorSweeps corridor;
+  pcl6d::SweepTracker sparse;
+  EXPECT_EQ(sparse.sweepsOfSurface(), 0U);
+  sparse.track(corridor.sweep(0));
+  EXPECT_GE(sparse.sweepsOfSurface(), 3U);
+  EXPECT_LE(sparse.sweepsOfSurface(), 6U);
+  SweepTrackerOptions options;
+  options.voxel = 0.02; // of denser lines
+  pcl6d::SweepTracker dense(options);
+  dense.track(corridor.sweep(0));
+  EXPECT_EQ(dense.sweepsOfSurface(), 1U);
+}

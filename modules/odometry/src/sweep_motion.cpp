@@ -40,6 +40,16 @@ SweepMotion::offsetAt(double share) const
   return (1 - at.share) * offsets[at.part] + at.share * offsets[at.part + 1];
 }
 
+SweepMotion
+reversed(const SweepMotion& motion)
+{
+  SweepMotion back = motion;
+  back.begin = motion.end();
+  back.velocity = -motion.velocity;
+  std::reverse(back.offsets.begin(), back.offsets.end());
+  return back;
+}
+
 std::vector<Eigen::Vector3d>
 placesOf(const SweepPoints& points, const SweepMotion& motion, unsigned int num_threads)
 {

@@ -72,6 +72,11 @@ struct SweepPart {
   }
 };
 
+/** \return the same motion with the time running backward: neglects products of the velocity and
+ * its change */
+SweepMotion
+reversed(const SweepMotion& motion);
+
 /** \return the positions of the points [m, world] */
 std::vector<Eigen::Vector3d>
 placesOf(const SweepPoints& points,

@@ -69,6 +69,18 @@ SweepSampler::sample(const SweepPoints& points)
   return sample;
 }
 
+Points
+inFrameOf(const Eigen::Isometry3d& T_world_sweep,
+          const std::vector<Eigen::Vector3d>& places)
+{
+  const Eigen::Isometry3d T_sweep_world = T_world_sweep.inverse();
+  Points points;
+  points.reserve(places.size());
+  for (const Eigen::Vector3d& place : places)
+    points.emplace_back((T_sweep_world * place).cast<float>());
+  return points;
+}
+
 double
 rangeOfShare(const SweepPoints& points, double share)
 {

@@ -42,6 +42,11 @@ private:
   std::size_t wanted_;
 };
 
+/** \return places [m, world] as points in the frame of a sweep */
+Points
+inFrameOf(const Eigen::Isometry3d& T_world_sweep,
+          const std::vector<Eigen::Vector3d>& places);
+
 /** \return the range [m] within which a share of the points lies; 0 without points */
 double
 rangeOfShare(const SweepPoints& points, double share);

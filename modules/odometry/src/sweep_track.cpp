@@ -102,80 +102,18 @@ SweepTracker::Track::setClock(const Sweep& sweep, Current& now) const
     now.begin = next;
 }
 
+/** Voxels follow from the lines; the finest useful ones follow from the noise. */
+std::size_t
+SweepTracker::Track::sweepsOfSurface() const
+{
+  return static_cast<std::size_t>(
+      std::lround(std::ceil(voxel() / std::max(kVoxelOfRange * range_, 1e-9))));
+}
+
 LocalMap
 SweepTracker::Track::emptyMap() const
 {
   return LocalMap(map_->options());
-}
-
-/** The map begins with this sweep, assumed at rest. */
-TrackedSweep
-SweepTracker::Track::begin(const Current& now)
-{
-  if (num_sweeps_ > 1 && num_lost_ > 0)
-    ++segment_;
-  const Eigen::Isometry3d predicted =
-      now.prediction ? *now.prediction : exactlyRigid(last_.end());
-  last_ = SweepMotion();
-  last_.begin = predicted;
-  last_begin_ = now.begin;
-  last_length_ = now.length;
-  last_end_ = now.begin + (now.is_timed ? now.length : 0);
-  num_matched_ = 1;
-  num_lost_ = 0;
-  is_open_ = true;
-  usual_fit_ = usual_overlap_ = usual_deviation_ = 0;
-  map_ = emptyMap();
-  addToMap(now, last_);
-  const double widest = widestGate();
-  translation_sq_ = widest * widest;
-  rotation_sq_ = translation_sq_ / (range_ * range_);
-  waiting_ = now;
-  first_ = describe(now, last_);
-  first_.status = SweepStatus::kFirst;
-  first_.segment = segment_;
-  keyframe_ = VoxelNumbers();
-  markKeyframe(odometry::placesOf(now.sample, last_, options_.num_threads), first_);
-  return first_;
-}
-
-/** The motion within the first sweep is taken from the motion between the first and the second
- * sweep; both are matched anew until the motion converges. */
-TrackedSweep
-SweepTracker::Track::second(const Current& now)
-{
-  constexpr double kSettled = 0.2; // of the noise: below the resolution of the points
-  constexpr int kRounds = 12;      // needed by weak directions of sparse rings
-  const SweepMotion at_rest = last_;
-  SweepPrior prior;
-  SweepMatch found;
-  for (int round = 0; round < kRounds; ++round) {
-    prior = priorOf(now);
-    found = bestMatch(now, prior);
-    if (!isMatched(found))
-      break;
-    const Twist before = last_.velocity;
-    const double steps = (now.begin - last_begin_) / last_length_;
-    last_.velocity = twistFromMotion(last_.begin.inverse() * found.motion.begin) /
-                     std::max(steps, 0.1);
-    map_ = emptyMap();
-    addToMap(*waiting_, waiting_->is_timed ? last_ : at_rest);
-    const Twist change = last_.velocity - before;
-    if (change.head<3>().norm() + range_ * change.tail<3>().norm() < kSettled * noise_)
-      break;
-  }
-  if (!isMatched(found)) { // the first sweep may be at fault
-    last_ = at_rest;
-    num_lost_ = 1;
-    return begin(now);
-  }
-  const bool is_first_keyframe = first_.is_keyframe;
-  first_ = describe(*waiting_, waiting_->is_timed ? last_ : at_rest);
-  first_.status = SweepStatus::kFirst;
-  first_.segment = segment_;
-  first_.is_keyframe = is_first_keyframe;
-  waiting_.reset();
-  return accept(now, prior, found);
 }
 
 TrackedSweep
@@ -215,7 +153,8 @@ SweepTracker::Track::accept(const Current& now,
   is_open_ = match.free_directions > 0;
   num_lost_ = 0;
   ++num_matched_;
-  TrackedSweep found = describe(now, motion);
+  const Places places = thinnedPlaces(now, motion);
+  TrackedSweep found = placed(now, motion, places);
   found.status = was_lost ? SweepStatus::kFoundAgain : SweepStatus::kTracked;
   found.inliers = match.inliers;
   found.overlap = match.overlap;
@@ -224,8 +163,10 @@ SweepTracker::Track::accept(const Current& now,
       range_ * distanceBetween(prior.motion.end(), match.motion.end()).rotation;
   found.covariance = match.begin_covariance;
   found.free_directions = match.free_directions;
-  markKeyframe(odometry::placesOf(now.sample, motion, options_.num_threads), found);
-  addToMap(now, motion);
+  markKeyframe(now, motion, places, found);
+  addToMap(places, motion);
+  if (!opening_.empty())
+    keepOpening(now, found, prior, match, places);
   return found;
 }
 
@@ -254,6 +195,16 @@ SweepTracker::Track::describe(const Current& now, const SweepMotion& motion) con
 }
 
 TrackedSweep
+SweepTracker::Track::placed(const Current& now,
+                            const SweepMotion& motion,
+                            const Places& places) const
+{
+  TrackedSweep found = describe(now, motion);
+  found.thinned = odometry::inFrameOf(found.T_world_sweep, places);
+  return found;
+}
+
+TrackedSweep
 SweepTracker::Track::lost(const Current& now)
 {
   SweepMotion motion;
@@ -271,13 +222,20 @@ SweepTracker::Track::lost(const Current& now)
   return found;
 }
 
-void
-SweepTracker::Track::addToMap(const Current& now, const SweepMotion& motion)
+SweepTracker::Track::Places
+SweepTracker::Track::thinnedPlaces(const Current& now, const SweepMotion& motion) const
 {
-  const auto points =
-      odometry::thinned(now.span.points, kMapThinning * map_->options().voxel);
+  return odometry::placesOf(
+      odometry::thinned(now.span.points, kMapThinning * map_->options().voxel),
+      motion,
+      options_.num_threads);
+}
+
+void
+SweepTracker::Track::addToMap(const Places& places, const SweepMotion& motion)
+{
   const Eigen::Vector3d here = motion.begin.translation();
-  map_->add(odometry::placesOf(points, motion, options_.num_threads), here);
+  map_->add(places, here);
   constexpr double kCutAfter = 0.1; // of the reach: voxels are dropped now and then
   if ((here - cut_at_).norm() < kCutAfter * reach_)
     return;
@@ -285,16 +243,25 @@ SweepTracker::Track::addToMap(const Current& now, const SweepMotion& motion)
   cut_at_ = here;
 }
 
+/** The sample, even over the surfaces, tells how much is new; all points of the keyframe tell what
+ * it saw: the sample would leave gaps. */
 void
-SweepTracker::Track::markKeyframe(const std::vector<Eigen::Vector3d>& places,
+SweepTracker::Track::markKeyframe(const Current& now,
+                                  const SweepMotion& motion,
+                                  const Places& thinned,
                                   TrackedSweep& found)
 {
   const double edge = std::ldexp(map_->options().voxel, 2);
   const Eigen::Vector3d here = found.T_world_begin.translation();
-  std::vector<VoxelKey> keys;
-  for (const auto& place : places)
-    if (place.cwiseAbs().maxCoeff() < 1e6 * edge)
-      keys.push_back(voxelKey(place.cast<float>(), edge));
+  const auto keysOf = [edge](const Places& places) {
+    std::vector<VoxelKey> keys;
+    for (const auto& place : places)
+      if (place.cwiseAbs().maxCoeff() < 1e6 * edge)
+        keys.push_back(voxelKey(place.cast<float>(), edge));
+    return keys;
+  };
+  const auto keys =
+      keysOf(odometry::placesOf(now.sample, motion, options_.num_threads));
   std::size_t seen = 0;
   for (const VoxelKey key : keys)
     seen += keyframe_.find(key) < keyframe_.size();
@@ -305,7 +272,7 @@ SweepTracker::Track::markKeyframe(const std::vector<Eigen::Vector3d>& places,
   keyframe_at_ = here;
   found.is_keyframe = true;
   keyframe_ = VoxelNumbers();
-  for (const VoxelKey key : keys)
+  for (const VoxelKey key : keysOf(thinned))
     keyframe_.add(key);
 }
 

@@ -28,16 +28,18 @@ public:
   TrackedSweep
   track(const Sweep& sweep);
 
-  const TrackedSweep&
-  first() const
+  const std::vector<TrackedSweep>&
+  corrected() const
   {
-    return first_;
+    return corrected_;
   }
   double
   voxel() const
   {
     return map_ ? map_->options().voxel : 0;
   }
+  std::size_t
+  sweepsOfSurface() const;
   std::size_t
   mapBytes() const
   {
@@ -55,6 +57,18 @@ private:
     std::optional<Eigen::Isometry3d> prediction;
   };
 
+  using Places = std::vector<Eigen::Vector3d>;
+
+  /** The sweeps behind the opening, from which the opening is tracked backward. */
+  struct Turn {
+    LocalMap map;
+    std::size_t sweeps = 0;
+    odometry::SweepMotion motion;          ///< of the first of them
+    double begin = 0, end = 0, length = 1; ///< in the clock
+    odometry::Matrix6 begin_information;   ///< about `centre`
+    Eigen::Vector3d centre;
+  };
+
   Current
   prepare(const Sweep& sweep);
   void
@@ -63,6 +77,20 @@ private:
   begin(const Current& now);
   TrackedSweep
   second(const Current& now);
+  void
+  correct(std::size_t number, TrackedSweep placed);
+  void
+  keepOpening(const Current& now,
+              const TrackedSweep& found,
+              const odometry::SweepPrior& prior,
+              const odometry::SweepMatch& match,
+              const Places& places);
+  void
+  trackBackward();
+  double
+  unevenness(const std::vector<odometry::SweepMotion>& motions) const;
+  static Current
+  turnedBack(Current sweep);
   TrackedSweep
   next(const Current& now);
   TrackedSweep
@@ -116,10 +144,21 @@ private:
   learn(const odometry::SweepPrior& prior, const odometry::SweepMatch& match);
   TrackedSweep
   describe(const Current& now, const odometry::SweepMotion& motion) const;
+  /** \return describe(), with the thinned points \param[in] places of them [m, world] */
+  TrackedSweep
+  placed(const Current& now,
+         const odometry::SweepMotion& motion,
+         const Places& places) const;
+  /** \return the places of the points, thinned to the resolution of the map [m, world] */
+  Places
+  thinnedPlaces(const Current& now, const odometry::SweepMotion& motion) const;
   void
-  addToMap(const Current& now, const odometry::SweepMotion& motion);
+  addToMap(const Places& places, const odometry::SweepMotion& motion);
   void
-  markKeyframe(const std::vector<Eigen::Vector3d>& places, TrackedSweep& found);
+  markKeyframe(const Current& now,
+               const odometry::SweepMotion& motion,
+               const Places& thinned,
+               TrackedSweep& found);
   LocalMap
   emptyMap() const;
 
@@ -129,8 +168,10 @@ private:
   double range_ = 0; ///< [m] typical range of the first sweep
   double reach_ = 0; ///< [m] of the sweeps so far
   double noise_ = 0; ///< [m]
-  TrackedSweep first_;
-  std::optional<Current> waiting_; ///< the first sweep, until the second is matched
+  std::optional<Turn> turn_;
+  std::vector<TrackedSweep> corrected_; ///< openingOfSegment()
+  std::vector<Current> opening_;        ///< the first sweeps, until tracked backward
+  std::vector<odometry::SweepMotion> opening_motions_;
   std::size_t segment_ = 0;
   std::size_t num_sweeps_ = 0, num_matched_ = 0, num_lost_ = 0; ///< lost: in a row
 

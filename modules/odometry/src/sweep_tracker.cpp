@@ -57,16 +57,22 @@ SweepTracker::track(const Sweep& sweep)
   return track_->track(sweep);
 }
 
-const TrackedSweep&
-SweepTracker::firstOfSegment() const
+const std::vector<TrackedSweep>&
+SweepTracker::openingOfSegment() const
 {
-  return track_->first();
+  return track_->corrected();
 }
 
 double
 SweepTracker::voxel() const
 {
   return track_->voxel();
+}
+
+std::size_t
+SweepTracker::sweepsOfSurface() const
+{
+  return track_->sweepsOfSurface();
 }
 
 std::size_t

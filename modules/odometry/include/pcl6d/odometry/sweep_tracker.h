@@ -56,8 +56,11 @@ struct TrackedSweep {
       0; ///< [m] of the begin and end from the prediction, at the typical range
   /** of begin, for motions (translation [m], rotation [rad]) in world axes about the sensor */
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  int free_directions = 0;  ///< of the pose, not fixed by a surface, but by the
-                            ///< prediction or constant velocity
+  int free_directions = 0; ///< of the pose, not fixed by a surface, but by the
+                           ///< prediction or constant velocity
+  /** [m] in the frame at the stamp: points of the sweep without the motion within, thinned to the
+   * resolution of the map; of a lost sweep none */
+  Points thinned;
   bool is_keyframe = false; ///< much of the sweep is new; the keyframes
                             ///< together cover the map
 };
@@ -112,14 +115,21 @@ public:
   TrackedSweep
   track(const Sweep& sweep);
 
-  /** \return the first sweep of the current segment, deskewed by the motion to the second sweep; at
-   * rest before the second sweep */
-  const TrackedSweep&
-  firstOfSegment() const;
+  /** \return the first ten sweeps of the current segment at most, in order, without lost ones, as
+   * known so far. Where points have times, the second sweep tells the motion within the first; after
+   * ten sweeps, all are tracked again backward */
+  const std::vector<TrackedSweep>&
+  openingOfSegment() const;
 
   /** \return [m] edge of the map's smallest voxels; 0 before the first sweep */
   double
   voxel() const;
+
+  /** \return the number of sweeps whose lines together are as close as the noise of the sensor lets
+   * them tell surfaces apart: 1 for dense sweeps, 4 for 16 lines with 2 degrees in between; 0
+   * before the first sweep */
+  std::size_t
+  sweepsOfSurface() const;
 
   /** \return the size of the map in memory [bytes] */
   std::size_t

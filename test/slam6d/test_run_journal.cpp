@@ -194,7 +194,7 @@ TEST_F(RunJournalTest, AStepMeasuredByTrackingIsAnotherInput)
   Slam6D slam;
   slam.setMemory(&second);
   for (std::size_t i = 0; i < journalRun().scans.size(); ++i)
-    slam.addScan(journalRun().scans[i], journalRun().odometry[i], "", i == 2);
+    slam.addScan(journalRun().scans[i], journalRun().odometry[i], "", {i == 2, {}});
   try {
     slam.optimize();
     FAIL() << "a scan with a measured step was taken for one without";

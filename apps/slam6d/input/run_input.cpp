@@ -74,7 +74,7 @@ openInput(const Settings& settings,
           std::move(stages),
           std::move(tracked.drive),
           std::move(tracked.paths),
-          std::move(tracked.are_steps_measured)};
+          std::move(tracked.contexts)};
 }
 
 RunScans
@@ -91,7 +91,7 @@ openScans(const RunInput& input, const Settings& settings, const EarlierRuns& ea
                                     folder.posesAreEstimated() && haveTimes(folder);
   if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
     scans.deskew(settings.interpolation, input.paths);
-  scans.setMeasuredSteps(input.are_steps_measured);
+  scans.setDrive(input.contexts);
   if (settings.deskew == Deskew::kEstimate)
     scans.estimateMotion();
   scans.filterLines(settings.filter);

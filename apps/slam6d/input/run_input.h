@@ -27,7 +27,7 @@ struct RunInput {
   std::optional<DriveResult> drive; ///< the drive whose keyframes are the scans; empty:
                                     ///< no drive
   std::vector<Trajectory> paths; ///< the tracked motion within each scan (TrackedScans)
-  std::vector<bool> are_steps_measured; ///< by tracking (TrackedScans)
+  std::vector<DriveContext> contexts; ///< by tracking (TrackedScans)
 };
 
 /** \return the chosen scans, after the scans of an earlier run; or the scans of joined runs

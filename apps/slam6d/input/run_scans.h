@@ -8,6 +8,7 @@
 #include <pcl6d/deskew/motion_options.h>
 #include <pcl6d/filters/line_filter.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/slam6d/slam6d.h>
 
 #include <optional>
 #include <string>
@@ -32,18 +33,19 @@ public:
   void
   deskew(MotionInterpolation interpolation, std::vector<Trajectory> paths = {});
 
-  /** \brief Tells which steps tracking measured. \param[in] are_measured one per scan; empty: none */
+  /** \brief Tells what tracking found. \param[in] contexts one per scan; empty: not tracked */
   void
-  setMeasuredSteps(std::vector<bool> are_measured)
+  setDrive(std::vector<DriveContext> contexts)
   {
-    are_steps_measured_ = std::move(are_measured);
+    contexts_ = std::move(contexts);
   }
 
-  /** \return whether surfaces measured the motion from the scan before (Slam6D::addScan()) */
-  bool
-  isStepMeasured(std::size_t i) const
+  /** \return what tracking tells of a scan (Slam6D::addScan()) */
+  const DriveContext&
+  driveContext(std::size_t i) const
   {
-    return i < are_steps_measured_.size() && are_steps_measured_[i];
+    static const DriveContext kNone;
+    return i < contexts_.size() ? contexts_[i] : kNone;
   }
 
   /** \brief Enables reading of the times of points, to estimate the motion within scans. Reads the
@@ -120,7 +122,7 @@ private:
   const ScanFolder& folder_;
   std::optional<MotionCorrection> correction_; ///< along the initial poses
   std::vector<Trajectory> paths_;              ///< see deskew()
-  std::vector<bool> are_steps_measured_;
+  std::vector<DriveContext> contexts_;         ///< by tracking
   bool estimates_motion_ = false;
   std::optional<MotionCorrection>
       clock_;                 ///< of estimated motion: the stamps of the scans

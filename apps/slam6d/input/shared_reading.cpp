@@ -117,7 +117,7 @@ SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
   }
   if (i >= folder.numRegistered()) {
     slam.addScan(
-        scan.points, folder.initialPose(i), folder.title(i), scans_.isStepMeasured(i));
+        scan.points, folder.initialPose(i), folder.title(i), scans_.driveContext(i));
     return scan.dropped;
   }
   const ScanResult earlier = earlier_.resultOf(i); // files of runs are called alike

@@ -184,7 +184,7 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count) {
     for (std::size_t i = 0; i < count; ++i) {
       found.paths.push_back(tracked.path(i));
-      found.are_steps_measured.push_back(tracked.isStepMeasured(i, i));
+      found.contexts.push_back({tracked.isStepMeasured(i, i), {}});
     }
     found.drive.reset();
     return found;
@@ -192,7 +192,8 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   std::size_t after = 0; // the last keyframe
   for (const std::size_t i : keyframes) {
     found.paths.push_back(tracked.path(i));
-    found.are_steps_measured.push_back(tracked.isStepMeasured(after, i));
+    found.contexts.push_back(
+        {tracked.isStepMeasured(after, i), tracked.takeAround(found.contexts.size())});
     after = i + 1;
   }
   folder.keepOnly(keyframes);

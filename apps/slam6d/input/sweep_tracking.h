@@ -29,8 +29,8 @@ struct TrackedScans {
   /** the motion within each scan that remains selected: T_world_sensor at times [s] since its
    * stamp, which is among them; empty: not tracked, or points have no times */
   std::vector<Trajectory> paths;
-  /** for each scan that remains selected, see TrackedDrive::isStepMeasured(); empty: not tracked */
-  std::vector<bool> are_steps_measured;
+  /** of each scan that remains selected; empty: not tracked */
+  std::vector<DriveContext> contexts;
 };
 
 /** \brief Tracks the scans of a folder in order (SweepTracker), and replaces its initial poses by

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl6d::app {
@@ -44,6 +45,47 @@ private:
   bool is_lost_ = false;
   std::size_t num_said_ = 0;
   std::string first_;
+};
+
+/** \brief Gathers the points of sweeps around each keyframe, as many as surfaces need. A sweep
+ * between two keyframes belongs to the nearer one; no sweep belongs to both, so that errors of one
+ * are not shared. */
+class Submaps {
+public:
+  /** \brief A sweep, or a keyframe with the points around it. */
+  struct Sweep {
+    std::size_t number = 0; ///< in the drive
+    Eigen::Isometry3d T_world_sweep;
+    Points thinned; ///< [m] in its frame
+  };
+
+  /** \brief Adds the next sweep. \param[in] wanted number of sweeps around each keyframe */
+  void
+  add(Sweep sweep, bool is_keyframe, std::size_t wanted);
+
+  /** \brief The track was lost, or begins anew: no sweep behind belongs to a keyframe before. */
+  void
+  cut();
+
+  /** \brief The pose of a sweep was corrected. */
+  void
+  correct(std::size_t number, const Eigen::Isometry3d& T_world_sweep);
+
+  /** \brief Takes the points [m] around a keyframe, in its frame, without its own points. */
+  Points
+  take(std::size_t keyframe)
+  {
+    return std::exchange(keyframes_.at(keyframe).thinned, {});
+  }
+
+private:
+  void
+  gather(std::size_t begin, std::size_t end, std::size_t wanted);
+
+  std::vector<Sweep> between_; ///< behind the last keyframe; of many, only a part
+  std::size_t wanted_ = 0;
+  std::vector<Sweep> keyframes_; ///< with the points around each, not its own
+  bool is_cut_ = false;          ///< behind the last keyframe
 };
 
 /** \brief The sweeps of a folder while they are tracked. Given poses of the scans, if any, fix the
@@ -89,6 +131,14 @@ public:
   bool
   isStepMeasured(std::size_t first, std::size_t last) const;
 
+  /** \brief Takes the points [m] of the sweeps around a keyframe, in its frame. \param[in] keyframe
+   * its number among the keyframes */
+  Points
+  takeAround(std::size_t keyframe)
+  {
+    return submaps_.take(keyframe);
+  }
+
   /** \return the number of sweeps without a match so far */
   std::size_t
   numLost() const
@@ -101,6 +151,8 @@ private:
   givenMotion(std::size_t i) const;
   std::optional<Eigen::Isometry3d>
   prediction(std::size_t i) const;
+  void
+  correctOpening();
 
   const ScanFolder& folder_;
   const bool has_given_;
@@ -110,7 +162,8 @@ private:
   std::vector<Trajectory> paths_;
   std::vector<bool> are_measured_; ///< the motion of each sweep from that before
   std::vector<std::size_t> keyframes_;
-  std::optional<std::size_t> first_; ///< first sweep of a map, without motion so far
+  Submaps submaps_;
+  std::vector<std::size_t> opening_; ///< sweeps of SweepTracker::openingOfSegment()
   bool is_lost_ = false, is_open_ = false; ///< the sweep before
   std::size_t num_lost_ = 0;
 };

@@ -24,12 +24,12 @@ void
 Slam6D::addScan(const Points& points,
                 const Eigen::Isometry3d& initial_pose,
                 const std::string& name,
-                bool is_step_measured)
+                const DriveContext& drive)
 {
   ScanResult scan;
   scan.initial_pose = initial_pose;
   scan.T_world_scan = initial_pose;
-  implementation_->addStill(points, scan, name, is_step_measured);
+  implementation_->addStill(points, scan, name, drive);
 }
 
 void

@@ -40,7 +40,7 @@ void
 SlamRun::addScan(const Points& points,
                  ScanResult scan,
                  const std::string& given_name,
-                 bool is_step_measured)
+                 const DriveContext& drive)
 {
   auto& scans = state_.result.scans;
   const std::size_t place = scans.size();
@@ -56,12 +56,10 @@ SlamRun::addScan(const Points& points,
   scans.push_back(scan);
   if (scan.state == ScanState::kPending)
     state_.predict(place);
-  state_.scans.add(points, name, is_step_measured);
+  state_.scans.add(points, name, drive);
   const std::uint64_t before = place > 0 ? state_.inputs.back() : 0;
   state_.inputs.push_back(
-      context.isFirst()
-          ? inputsOf(before, place, points, scans.back(), is_step_measured)
-          : 0);
+      context.isFirst() ? inputsOf(before, place, points, scans.back(), drive) : 0);
   try {
     if (state_.scans.isFull(state_.map.has_value()))
       prepareWaiting(state_, nullptr);
@@ -77,10 +75,10 @@ void
 SlamRun::addStill(const Points& points,
                   const ScanResult& scan,
                   const std::string& given_name,
-                  bool is_step_measured)
+                  const DriveContext& drive)
 {
   addUndone(true);
-  addScan(points, scan, given_name, is_step_measured);
+  addScan(points, scan, given_name, drive);
   if (!state_.options.motion.keep_still)
     return;
   last_still_.emplace_back(points, state_.result.scans.back().T_world_scan);
@@ -125,7 +123,7 @@ SlamRun::addUndone(bool all)
   for (MotionStage::Ready& ready : deskewed) {
     ScanResult scan;
     scan.initial_pose = scan.T_world_scan = ready.pose;
-    addScan(ready.points, scan, ready.name, false);
+    addScan(ready.points, scan, ready.name, {});
   }
 }
 

@@ -22,12 +22,12 @@ public:
 
   /** Adds a static scan after the scans that wait for their motion.
    * \param[in] scan with the initial pose; a registered scan with its complete result
-   * \param[in] is_step_measured see Slam6D::addScan() */
+   * \param[in] drive see Slam6D::addScan() */
   void
   addStill(const Points& points,
            const ScanResult& scan,
            const std::string& given_name,
-           bool is_step_measured = false);
+           const DriveContext& drive = {});
 
   /** Adds a scan with unknown motion. */
   void
@@ -71,7 +71,7 @@ private:
   addScan(const Points& points,
           ScanResult scan,
           const std::string& given_name,
-          bool is_step_measured);
+          const DriveContext& drive);
 
   /** Adds the scans with known motion. \param[in] all no further scans are expected */
   void

@@ -10,15 +10,17 @@ inputsOf(std::uint64_t before,
          std::size_t place,
          const Points& points,
          const ScanResult& scan,
-         bool is_step_measured)
+         const DriveContext& drive)
 {
   Fingerprint sum;
   if (place > 0)
     sum.add(before);
   sum.add(points);
   sum.add(scan.initial_pose);
-  if (is_step_measured)
+  if (drive.is_step_measured)
     sum.add(std::uint32_t{1});
+  if (!drive.around.empty())
+    sum.add(drive.around);
   if (scan.state != ScanState::kPending) { // by an earlier run
     sum.add(scan.T_world_scan);
     sum.add(static_cast<std::uint32_t>(scan.state));

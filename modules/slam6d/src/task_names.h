@@ -3,6 +3,7 @@
 
 #include <pcl6d/common/points.h>
 #include <pcl6d/graph_relaxation/scan_link.h>
+#include <pcl6d/slam6d/slam6d.h>
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <cstdint>
@@ -14,13 +15,13 @@ namespace pcl6d::slam6d {
 /** \return the hash of a scan and all scans before
  * \param[in] before the hash of the previous scan; ignored for the first
  * \param[in] place index of the scan in the run
- * \param[in] is_step_measured see Slam6D::addScan() */
+ * \param[in] drive see Slam6D::addScan() */
 std::uint64_t
 inputsOf(std::uint64_t before,
          std::size_t place,
          const Points& points,
          const ScanResult& scan,
-         bool is_step_measured);
+         const DriveContext& drive);
 
 /** \return the hash of a task
  * \param[in] inputs of its last scan \param[in] result with the parameters

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matching/kept_scans.h"
 
+#include <pcl6d/filters/range_statistics.h>
 #include <pcl6d/slam6d/auto_parameters.h>
 #include <pcl6d/slam6d/scan_preparation.h>
 
@@ -59,11 +60,12 @@ packFields(Unpacker& unpacker, PreparedScan& scan)
 }
 
 void
-KeptScans::add(const Points& points, const std::string& name, bool is_step_measured)
+KeptScans::add(const Points& points, const std::string& name, const DriveContext& drive)
 {
   unreduced_.push_back(points);
+  around_.push_back(drive.around);
   names_.push_back(name);
-  are_steps_measured_.push_back(is_step_measured);
+  are_steps_measured_.push_back(drive.is_step_measured);
 }
 
 void
@@ -71,8 +73,10 @@ KeptScans::forget(std::size_t place)
 {
   names_.resize(place);
   are_steps_measured_.resize(place);
-  if (reduced_.size() + unreduced_.size() > place)
+  if (reduced_.size() + unreduced_.size() > place) {
     unreduced_.pop_back();
+    around_.pop_back();
+  }
 }
 
 bool
@@ -99,6 +103,7 @@ KeptScans::keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans)
   reduced_.push_back(std::move(reduced));
   measured_.emplace_back(std::move(gated));
   unreduced_.pop_front();
+  around_.pop_front();
 }
 
 void
@@ -112,7 +117,7 @@ KeptScans::prepare(const ScanMatcher& matcher,
   while (!unreduced_.empty()) {
     const std::string& name = names_[reduced_.size()];
     Points gated = gateScan(unreduced_.front(), name, parameters);
-    IcpModel model = matcher.prepare(reduceScan(gated, name, parameters, reduction()));
+    IcpModel model = matcher.prepare(reduce(gated, 0, parameters));
     keep(std::move(model), std::move(gated), scans);
     if (report)
       report({"reducing", reduced_.size(), names_.size()});
@@ -130,8 +135,7 @@ KeptScans::prepareShared(const ScanMatcher& matcher,
   sharedFor(sharing_, options_.num_threads, prepared, place, [&](std::size_t k) {
     const std::string& name = names_[done + k];
     prepared[k].gated = gateScan(unreduced_[k], name, parameters);
-    prepared[k].model =
-        matcher.prepare(reduceScan(prepared[k].gated, name, parameters, reduction()));
+    prepared[k].model = matcher.prepare(reduce(prepared[k].gated, k, parameters));
   });
   for (PreparedScan& scan : prepared) {
     if (!scan.model && scan.normals.empty())
@@ -145,14 +149,22 @@ KeptScans::prepareShared(const ScanMatcher& matcher,
   }
 }
 
-ReductionOptions
-KeptScans::reduction() const
+Points
+KeptScans::reduce(const Points& gated,
+                  std::size_t k,
+                  const Slam6DParameters& parameters) const
 {
   ReductionOptions reduction;
   reduction.method = options_.reduction;
   reduction.points_per_voxel = options_.reduction_points;
   reduction.seed = options_.seed;
-  return reduction;
+  const std::string& name = names_[reduced_.size() + k];
+  if (around_[k].empty() || parameters.planar_rows.value > 0)
+    return reduceScan(gated, name, parameters, reduction);
+  Points submap = gated;
+  const Points around = gateByRange(around_[k], 0, parameters.max_range.value);
+  submap.insert(submap.end(), around.begin(), around.end());
+  return reduceScan(submap, name, parameters, reduction);
 }
 
 } // namespace pcl6d::slam6d

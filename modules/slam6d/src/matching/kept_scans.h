@@ -6,6 +6,7 @@
 
 #include <pcl6d/common/progress.h>
 #include <pcl6d/common/work_sharing.h>
+#include <pcl6d/slam6d/slam6d.h>
 
 #include <deque>
 #include <string>
@@ -42,9 +43,9 @@ public:
     return isFirst() || sharing_->owns(place);
   }
 
-  /** \param[in] is_step_measured see Slam6D::addScan() */
+  /** \param[in] drive see Slam6D::addScan() */
   void
-  add(const Points& points, const std::string& name, bool is_step_measured);
+  add(const Points& points, const std::string& name, const DriveContext& drive);
 
   /** Removes the latest scan, whose reduction failed. */
   void
@@ -124,8 +125,10 @@ private:
   void
   keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans);
 
-  ReductionOptions
-  reduction() const;
+  /** \return the reduced points of the first unreduced scans, with those of the sweeps around
+   * \param[in] k number among the unreduced scans */
+  Points
+  reduce(const Points& gated, std::size_t k, const Slam6DParameters& parameters) const;
 
   const Slam6DOptions& options_;
   WorkSharing* sharing_ = nullptr;
@@ -133,6 +136,7 @@ private:
   std::vector<std::string> names_;
   std::vector<bool> are_steps_measured_;
   std::deque<Points> unreduced_; ///< scans without parameters yet
+  std::deque<Points> around_;    ///< of the unreduced scans (DriveContext)
   std::deque<IcpModel> reduced_; ///< a deque: the matcher keeps references to elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
 };

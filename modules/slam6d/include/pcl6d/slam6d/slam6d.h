@@ -22,6 +22,17 @@ namespace PCL6D_EXPORTS pcl6d {
 class TaskMemory;
 class WorkSharing;
 
+/** \brief What lidar odometry over the sweeps of a drive tells of one of its keyframes. */
+struct DriveContext {
+  /** surfaces measured the motion of the initial poses from the scan before, without a direction
+   * left open: where the match of both scans leaves a direction open, this motion fixes it */
+  bool is_step_measured = false;
+  /** [m] in the scan's frame: points of the sweeps around the scan, at their tracked poses. The
+   * scan is matched and relaxed with these points, too (a submap), since a single sweep of few
+   * lines shows only lines of a surface. Rays, dynamic points and the map are of the scan alone. */
+  Points around;
+};
+
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a consistent trajectory
  * out.
  *
@@ -59,16 +70,14 @@ public:
    * \param[in] points in the scan's own frame, right-handed [m]; NaN points are dropped
    * \param[in] initial_pose rough T_world_scan, e.g. odometry
    * \param[in] name for messages, e.g. its file; empty: "scan 7"
-   * \param[in] is_step_measured the motion of the initial poses from the scan before was measured
-   * by surfaces, without a direction left open (lidar odometry over the sweeps in between): where
-   * the match of both scans leaves a direction open, this motion fixes it
+   * \param[in] drive of a keyframe: what lidar odometry over the sweeps of a drive tells
    * \throws BadArgument fewer than 3 finite points, or the pose is not rigid
    * \throws ComputeFailed as optimize() */
   void
   addScan(const Points& points,
           const Eigen::Isometry3d& initial_pose,
           const std::string& name = "",
-          bool is_step_measured = false);
+          const DriveContext& drive = {});
 
   /** \brief Adds a scan taken in motion. The motion is estimated from the points of this and the
    * neighbouring scans, and the scan is deskewed; initial poses need not contain the motion

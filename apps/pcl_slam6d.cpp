@@ -296,7 +296,7 @@ private:
   WorkSharing* ranks_;
   const app::Interrupt interrupt_;
   const app::EarlierRuns earlier_;
-  const app::RunInput input_;
+  app::RunInput input_;
   const ScanFolder& folder_;
   app::RunScans scans_;
   const Settings settings_;

@@ -207,7 +207,7 @@ explainRun(const Settings& given)
     throw UsageError("--explain is for the scans of a folder or a file, not for joined "
                      "or continued runs");
   const EarlierRuns earlier = openEarlier(given);
-  const RunInput input = openInput(given, earlier);
+  RunInput input = openInput(given, earlier);
   const ScanFolder& folder = input.folder;
   RunScans scans = openScans(input, given, earlier);
   const Settings settings = resolved(given, folder, earlier);

@@ -264,7 +264,7 @@ void
 help(WorkSharing& ranks, const std::string& name, const Settings& settings)
 {
   const EarlierRuns earlier = openEarlier(settings);
-  const RunInput input = openInput(settings, earlier);
+  RunInput input = openInput(settings, earlier);
   const ScanFolder& folder = input.folder;
   RunScans scans = openScans(input, settings, earlier);
   const Settings all = resolved(settings, folder, earlier);

@@ -40,10 +40,11 @@ public:
     return sweepAlong([speed](double time) { return poseAt(time, speed); }, stamp);
   }
 
-  /** \return the sweep that begins at a time, of a sensor with a pose for each time */
+  /** \return the sweep that begins at a time, of a sensor with a pose for each time
+   * \param[in] between [deg] from ring to ring */
   template <typename PoseOfTime>
   Sweep
-  sweepAlong(const PoseOfTime& poseOf, double stamp)
+  sweepAlong(const PoseOfTime& poseOf, double stamp, double between = 2.5)
   {
     constexpr int kColumns = 300;
     Sweep sweep;
@@ -53,7 +54,7 @@ public:
       const Eigen::Isometry3d pose = poseOf(stamp + time);
       const double turn = 2 * M_PI * column / kColumns;
       for (int ring = 0; ring < 24; ++ring) {
-        const double up = radians(2.5 * ring - 28.75);
+        const double up = radians(between * (ring - 11.5));
         const Eigen::Vector3d ray(
             std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
         const double range = room_.range(pose.translation(), pose.linear() * ray);

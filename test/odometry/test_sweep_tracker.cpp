@@ -215,15 +215,20 @@ TEST(SweepTracker, PredictionsDecideAlongATunnel)
 TEST(SweepTracker, ThreadsDoNotChangeBits)
 {
   CorridorSweeps corridor;
-  const auto sweeps = corridor.drive(10);
   SweepTrackerOptions one, four;
   one.num_threads = 1;
   four.num_threads = 4;
-  const auto a = trackAll(sweeps, one), b = trackAll(sweeps, four);
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    EXPECT_EQ(a[i].T_world_sweep.matrix(), b[i].T_world_sweep.matrix());
-    EXPECT_EQ(a[i].covariance, b[i].covariance);
-  }
+  pcl6d::SweepTracker first(one), second(four);
+  const auto expectSame = [](const TrackedSweep& a, const TrackedSweep& b) {
+    EXPECT_EQ(a.T_world_sweep.matrix(), b.T_world_sweep.matrix());
+    EXPECT_EQ(a.covariance, b.covariance);
+    EXPECT_EQ(a.reduced, b.reduced);
+  };
+  for (const Sweep& sweep : corridor.drive(22)) // the opening is tracked backward
+    expectSame(first.track(sweep), second.track(sweep));
+  ASSERT_EQ(first.openingOfSegment().size(), 10U);
+  for (std::size_t i = 0; i < 10; ++i)
+    expectSame(first.openingOfSegment()[i], second.openingOfSegment()[i]);
 }
 
 TEST(SweepTracker, KeepsItsMapBounded)
@@ -287,30 +292,42 @@ TEST(SweepTracker, ADriveMayBeginInATurn)
   EXPECT_LT(error.translation, 0.05);
 }
 
+// The pose of the first sweep is that of its begin: with the second sweep, only its path changes.
+TEST(SweepTracker, TheSecondSweepTellsTheMotionWithinTheFirst)
+{
+  CorridorSweeps corridor;
+  const auto sweeps = corridor.drive(2);
+  pcl6d::SweepTracker tracker;
+  EXPECT_FALSE(tracker.track(sweeps[0]).corrects_opening);
+  const auto at_rest = tracker.openingOfSegment()[0].path;
+  EXPECT_EQ(at_rest.poses.front().matrix(), at_rest.poses.back().matrix());
+  EXPECT_TRUE(tracker.track(sweeps[1]).corrects_opening);
+  const auto path = tracker.openingOfSegment()[0].path;
+  EXPECT_NEAR(
+      distanceBetween(path.poses.front(), path.poses.back()).translation, 0.15, 0.03);
+}
+
 TEST(SweepTracker, WithoutTimesTheOpeningStaysAsTracked)
 {
   CorridorSweeps corridor;
   pcl6d::SweepTracker tracker;
-  std::vector<TrackedSweep> tracked;
   for (Sweep sweep : corridor.drive(24)) {
     sweep.times.clear();
-    tracked.push_back(tracker.track(sweep));
+    const TrackedSweep found = tracker.track(sweep);
+    EXPECT_EQ(found.corrects_opening, *sweep.stamp == kSweepTime);
   }
-  const auto& opening = tracker.openingOfSegment();
-  ASSERT_EQ(opening.size(), 10U);
-  for (std::size_t i = 0; i < opening.size(); ++i)
-    EXPECT_EQ(opening[i].T_world_sweep.matrix(), tracked[i].T_world_sweep.matrix())
-        << i;
+  EXPECT_EQ(tracker.openingOfSegment()[0].T_world_sweep.matrix(),
+            Eigen::Matrix4d::Identity());
 }
 
 // A spinning sensor at 6 m/s turns and moves within a sweep: raw points are off by 40 cm.
-TEST(SweepTracker, ThinnedPointsAreWithoutTheMotionWithinTheSweep)
+TEST(SweepTracker, ReducedPointsAreWithoutTheMotionWithinTheSweep)
 {
   constexpr double kFast = 6;
   CorridorSweeps corridor;
   const auto tracked = trackAll(corridor.drive(40, kFast));
   const Eigen::Isometry3d T_world_sensor = CorridorSweeps::poseAt(3.9, kFast);
-  const auto& points = tracked.back().thinned;
+  const auto& points = tracked.back().reduced;
   ASSERT_GT(points.size(), 1000U);
   std::vector<double> errors;
   for (const Eigen::Vector3f& point : points) {
@@ -322,21 +339,18 @@ TEST(SweepTracker, ThinnedPointsAreWithoutTheMotionWithinTheSweep)
   EXPECT_LT(pcl6d::upperMedian(errors), 0.02);
   Sweep none;
   pcl6d::SweepTracker tracker;
-  EXPECT_TRUE(tracker.track(none).thinned.empty());
+  EXPECT_TRUE(tracker.track(none).reduced.empty());
 }
 
-// 24 rings, 2.5 degrees apart, need several sweeps; rings a fifth of that apart need one.
 TEST(SweepTracker, DenseSweepsNeedNoOthersForASurface)
 {
   CorridorSweeps corridor;
-  pcl6d::SweepTracker sparse;
+  pcl6d::SweepTracker sparse, dense;
   EXPECT_EQ(sparse.sweepsOfSurface(), 0U);
-  sparse.track(corridor.sweep(0));
+  sparse.track(corridor.sweep(0)); // 2.5 degrees from ring to ring
   EXPECT_GE(sparse.sweepsOfSurface(), 3U);
   EXPECT_LE(sparse.sweepsOfSurface(), 6U);
-  SweepTrackerOptions options;
-  options.voxel = 0.02; // of denser lines
-  pcl6d::SweepTracker dense(options);
-  dense.track(corridor.sweep(0));
+  const auto pose = [](double time) { return CorridorSweeps::poseAt(time); };
+  dense.track(corridor.sweepAlong(pose, 0, 0.4));
   EXPECT_EQ(dense.sweepsOfSurface(), 1U);
 }

@@ -21,6 +21,15 @@ registered(const DriftingRun& run, const Slam6DOptions& options = {})
   return slam.result();
 }
 
+/** \return what tracking tells of a scan, without a submap */
+inline DriveContext
+measuredStep(bool is_measured)
+{
+  DriveContext drive;
+  drive.is_step_measured = is_measured;
+  return drive;
+}
+
 /** \brief Expects the same scans to the last bit. */
 inline void
 expectSameBits(const Slam6DResult& a, const Slam6DResult& b)

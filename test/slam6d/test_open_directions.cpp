@@ -177,7 +177,7 @@ TEST(OpenDirections, AMeasuredStepFixesTheOpenMotion)
   const Slam6DResult given = pcl6d::test::registered(run);
   pcl6d::Slam6D slam;
   for (std::size_t i = 0; i < run.scans.size(); ++i)
-    slam.addScan(run.scans[i], run.odometry[i], "", {i != 3, {}});
+    slam.addScan(run.scans[i], run.odometry[i], "", pcl6d::test::measuredStep(i != 3));
   EXPECT_TRUE(slam.optimize());
   for (std::size_t i = 1; i < run.scans.size(); ++i) {
     const pcl6d::ScanResult& scan = slam.result().scans[i];
@@ -196,9 +196,11 @@ TEST(OpenDirections, ARefusedScanMovesNoMeasuredStep)
   slam.addScan(run.scans[0], run.odometry[0]);
   EXPECT_TRUE(slam.optimize()); // derives the range gate
   for (std::size_t i = 1; i < run.scans.size(); ++i) {
-    EXPECT_THROW(slam.addScan(inside_the_gate, run.odometry[i], "", {i == 3, {}}),
-                 pcl6d::ComputeFailed);
-    slam.addScan(run.scans[i], run.odometry[i], "", {i != 3, {}});
+    EXPECT_THROW(
+        slam.addScan(
+            inside_the_gate, run.odometry[i], "", pcl6d::test::measuredStep(i == 3)),
+        pcl6d::ComputeFailed);
+    slam.addScan(run.scans[i], run.odometry[i], "", pcl6d::test::measuredStep(i != 3));
   }
   EXPECT_TRUE(slam.optimize());
   for (std::size_t i = 1; i < run.scans.size(); ++i)

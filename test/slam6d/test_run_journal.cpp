@@ -194,7 +194,10 @@ TEST_F(RunJournalTest, AStepMeasuredByTrackingIsAnotherInput)
   Slam6D slam;
   slam.setMemory(&second);
   for (std::size_t i = 0; i < journalRun().scans.size(); ++i)
-    slam.addScan(journalRun().scans[i], journalRun().odometry[i], "", {i == 2, {}});
+    slam.addScan(journalRun().scans[i],
+                 journalRun().odometry[i],
+                 "",
+                 pcl6d::test::measuredStep(i == 2));
   try {
     slam.optimize();
     FAIL() << "a scan with a measured step was taken for one without";
@@ -202,6 +205,22 @@ TEST_F(RunJournalTest, AStepMeasuredByTrackingIsAnotherInput)
     EXPECT_NE(std::string(e.what()).find("c.pcd: has changed"), std::string::npos)
         << e.what();
   }
+}
+
+TEST_F(RunJournalTest, ASubmapIsAnotherInput)
+{
+  interruptedRun(4);
+  auto second = journal();
+  Slam6D slam;
+  slam.setMemory(&second);
+  pcl6d::DriveContext drive;
+  drive.submap = {{journalRun().scans[1], Eigen::Isometry3d::Identity()}};
+  for (std::size_t i = 0; i < journalRun().scans.size(); ++i)
+    slam.addScan(journalRun().scans[i],
+                 journalRun().odometry[i],
+                 "",
+                 i == 2 ? drive : pcl6d::DriveContext());
+  EXPECT_THROW(slam.optimize(), IoFailed);
 }
 
 TEST_F(RunJournalTest, OtherConditionsAreNamed)

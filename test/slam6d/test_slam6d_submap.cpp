@@ -11,8 +11,8 @@
 
 namespace {
 using pcl6d::DriveContext;
-using pcl6d::poseFromEuler;
 using pcl6d::Points;
+using pcl6d::poseFromEuler;
 using pcl6d::Random;
 using pcl6d::Slam6D;
 using pcl6d::test::PillarRoom;
@@ -64,7 +64,7 @@ errorOfHeight(bool has_around)
   for (const auto& [pose, initial] : {std::pair(first, first), {second, rough}}) {
     DriveContext drive;
     if (has_around)
-      drive.around = floorAndWalls(pose, random);
+      drive.submap = {{floorAndWalls(pose, random), Eigen::Isometry3d::Identity()}};
     slam.addScan(wallsOnly(pose, random), initial, "", drive);
   }
   slam.optimize();
@@ -85,8 +85,8 @@ TEST(Submap, IsOfTheMatchAloneNotOfTheScan)
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const Points points = wallsOnly(pose, random);
   DriveContext drive;
-  drive.around = floorAndWalls(pose, random);
-  drive.around.emplace_back(Eigen::Vector3f::Constant(NAN));
+  drive.submap = {{floorAndWalls(pose, random), Eigen::Isometry3d::Identity()}};
+  drive.submap[0].points.emplace_back(Eigen::Vector3f::Constant(NAN));
   Slam6D slam, alone;
   slam.addScan(points, pose, "", drive);
   alone.addScan(points, pose);

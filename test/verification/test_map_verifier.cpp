@@ -281,6 +281,23 @@ TEST_F(MapOfARoom, DoesNotConnectAnUnregisteredScanEvenAtTheTruth)
   EXPECT_EQ(map.doubts[0].text, "scan 2");
 }
 
+TEST(MapOfTwoScans, AnUnregisteredFirstScanIsNotConnected)
+{
+  const PillarRoom room;
+  Random random(12);
+  VerifiedScans scans;
+  Poses poses;
+  for (const std::size_t pose : {0U, 1U}) {
+    scans.add(room.scan(roomPoses()[pose], random, 0.04));
+    poses.push_back(roomPoses()[pose]);
+  }
+  MapVerifierOptions options;
+  options.unregistered = {true, false};
+  const MapVerification map =
+      MapVerifier(scans.all(), namesOf(poses.size()), options).verify(poses);
+  EXPECT_FALSE(map.scans[0].tied);
+}
+
 TEST(MapOfTwoRooms, IsNotConnectedByAnUnregisteredScan)
 {
   // Two rooms 30 m apart, with three and two scans; scan 3 has the points of both rooms, so that its

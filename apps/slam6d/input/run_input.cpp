@@ -78,7 +78,7 @@ openInput(const Settings& settings,
 }
 
 RunScans
-openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier)
+openScans(RunInput& input, const Settings& settings, const EarlierRuns& earlier)
 {
   const ScanFolder& folder = input.folder;
   RunScans scans(folder);
@@ -91,7 +91,7 @@ openScans(const RunInput& input, const Settings& settings, const EarlierRuns& ea
                                     folder.posesAreEstimated() && haveTimes(folder);
   if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
     scans.deskew(settings.interpolation, input.paths);
-  scans.setDrive(input.contexts);
+  scans.setDriveContexts(std::move(input.contexts));
   if (settings.deskew == Deskew::kEstimate)
     scans.estimateMotion();
   scans.filterLines(settings.filter);

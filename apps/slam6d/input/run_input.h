@@ -39,9 +39,10 @@ openInput(const Settings& settings,
           const EarlierRuns& earlier,
           const Interrupt* interrupt = nullptr);
 
-/** \return the scans for registration; keeps a reference to the folder of the input */
+/** \return the scans for registration; keeps a reference to the folder of the input, and takes its
+ * contexts */
 RunScans
-openScans(const RunInput& input, const Settings& settings, const EarlierRuns& earlier);
+openScans(RunInput& input, const Settings& settings, const EarlierRuns& earlier);
 
 /** \return the settings with values derived from the folder and earlier runs */
 Settings

@@ -35,17 +35,16 @@ public:
 
   /** \brief Tells what tracking found. \param[in] contexts one per scan; empty: not tracked */
   void
-  setDrive(std::vector<DriveContext> contexts)
+  setDriveContexts(std::vector<DriveContext> contexts)
   {
     contexts_ = std::move(contexts);
   }
 
-  /** \return what tracking tells of a scan (Slam6D::addScan()) */
-  const DriveContext&
-  driveContext(std::size_t i) const
+  /** \brief Takes what tracking tells of a scan (Slam6D::addScan()). */
+  DriveContext
+  takeDriveContext(std::size_t i)
   {
-    static const DriveContext kNone;
-    return i < contexts_.size() ? contexts_[i] : kNone;
+    return i < contexts_.size() ? std::exchange(contexts_[i], {}) : DriveContext();
   }
 
   /** \brief Enables reading of the times of points, to estimate the motion within scans. Reads the

@@ -116,8 +116,10 @@ SharedReading::add(std::size_t i, const Scan& scan, Slam6D& slam) const
     return scan.dropped;
   }
   if (i >= folder.numRegistered()) {
-    slam.addScan(
-        scan.points, folder.initialPose(i), folder.title(i), scans_.driveContext(i));
+    slam.addScan(scan.points,
+                 folder.initialPose(i),
+                 folder.title(i),
+                 scans_.takeDriveContext(i));
     return scan.dropped;
   }
   const ScanResult earlier = earlier_.resultOf(i); // files of runs are called alike

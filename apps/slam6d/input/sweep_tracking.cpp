@@ -189,11 +189,16 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
     found.drive.reset();
     return found;
   }
+  const bool is_filtered =
+      settings.filter != LineFilter::kNone || settings.other_filter.filter;
   std::size_t after = 0; // the last keyframe
   for (const std::size_t i : keyframes) {
     found.paths.push_back(tracked.path(i));
-    found.contexts.push_back(
-        {tracked.isStepMeasured(after, i), tracked.takeAround(found.contexts.size())});
+    DriveContext context;
+    context.is_step_measured = tracked.isStepMeasured(after, i);
+    if (!is_filtered) // tracking reads the sweeps as measured
+      context.submap = tracked.takeSubmap(found.contexts.size());
+    found.contexts.push_back(std::move(context));
     after = i + 1;
   }
   folder.keepOnly(keyframes);

@@ -67,72 +67,6 @@ pathWithStamp(const TrackedSweep& sweep)
 }
 } // namespace
 
-/** Adds sweeps to the last keyframe, spread evenly: each sees other lines of the surfaces. */
-void
-Submaps::gather(std::size_t begin, std::size_t end, std::size_t wanted)
-{
-  const std::size_t count = std::min(wanted, end - begin);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Sweep& sweep = between_[begin + (2 * k + 1) * (end - begin) / (2 * count)];
-    const Eigen::Isometry3f T_keyframe_sweep =
-        (keyframes_.back().T_world_sweep.inverse() * sweep.T_world_sweep).cast<float>();
-    for (const Eigen::Vector3f& point : sweep.thinned)
-      keyframes_.back().thinned.push_back(T_keyframe_sweep * point);
-  }
-}
-
-void
-Submaps::add(Sweep sweep, bool is_keyframe, std::size_t wanted)
-{
-  constexpr std::size_t kMostBetween = 64; // a scanner at rest needs no more
-  wanted_ = wanted;
-  if (!is_keyframe) {
-    if (wanted == 0)
-      return;
-    if (between_.size() == kMostBetween)
-      for (std::size_t k = 0; k < kMostBetween / 2; ++k)
-        between_[k] = std::move(between_[2 * k]);
-    if (between_.size() == kMostBetween)
-      between_.resize(kMostBetween / 2);
-    between_.push_back(std::move(sweep));
-    return;
-  }
-  const std::size_t half =
-      keyframes_.empty() || is_cut_ ? 0 : (between_.size() + 1) / 2;
-  gather(0, half, wanted - wanted / 2);
-  keyframes_.push_back({sweep.number, sweep.T_world_sweep, {}});
-  gather(half, between_.size(), wanted / 2);
-  between_.clear();
-  is_cut_ = false;
-}
-
-void
-Submaps::cut()
-{
-  if (!keyframes_.empty() && !is_cut_)
-    gather(0, between_.size(), wanted_);
-  between_.clear();
-  is_cut_ = true;
-}
-
-/** The points already around a keyframe keep their places in the world. */
-void
-Submaps::correct(std::size_t number, const Eigen::Isometry3d& T_world_sweep)
-{
-  for (Sweep& sweep : between_)
-    if (sweep.number == number)
-      sweep.T_world_sweep = T_world_sweep;
-  for (Sweep& keyframe : keyframes_) {
-    if (keyframe.number != number)
-      continue;
-    const Eigen::Isometry3f T_new_old =
-        (T_world_sweep.inverse() * keyframe.T_world_sweep).cast<float>();
-    keyframe.T_world_sweep = T_world_sweep;
-    for (Eigen::Vector3f& point : keyframe.thinned)
-      point = T_new_old * point;
-  }
-}
-
 TrackedDrive::TrackedDrive(const SweepTrackerOptions& options,
                            const ScanFolder& folder,
                            ProgressBar& bar)
@@ -176,7 +110,7 @@ void
 TrackedDrive::track(std::size_t i, Sweep sweep)
 {
   sweep.prediction = prediction(i);
-  TrackedSweep found = tracker_.track(sweep);
+  const TrackedSweep found = tracker_.track(sweep);
   is_lost_ = found.status == SweepStatus::kLost;
   is_open_ = found.free_directions > 0;
   if (found.status == SweepStatus::kFirst)
@@ -188,23 +122,32 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
   paths_.push_back(pathWithStamp(found));
   are_measured_.push_back(found.status == SweepStatus::kTracked && !is_open_);
   num_lost_ += is_lost_ ? 1 : 0;
-  if (is_lost_ || found.status == SweepStatus::kFirst)
-    submaps_.cut();
-  if (is_lost_ && !has_given_) {
-    drive_.lost.push_back(folder_.index(i));
-    return;
-  }
-  const bool is_keyframe = is_lost_ || found.is_keyframe ||
+  if (found.corrects_opening)
+    correctOpening();
+  const bool is_keyframe = (is_lost_ && has_given_) || found.is_keyframe ||
                            found.status == SweepStatus::kFirst ||
-                           i + 1 == folder_.size();
+                           (!is_lost_ && i + 1 == folder_.size());
   if (is_keyframe)
     keyframes_.push_back(i);
-  const std::size_t sweeps = std::max<std::size_t>(1, tracker_.sweepsOfSurface());
-  submaps_.add(
-      {i, found.T_world_sweep, std::move(found.thinned)}, is_keyframe, sweeps - 1);
+  else if (is_lost_)
+    drive_.lost.push_back(folder_.index(i));
+  addToSubmaps(i, found, is_keyframe);
+}
+
+void
+TrackedDrive::addToSubmaps(std::size_t i, const TrackedSweep& found, bool is_keyframe)
+{
+  constexpr double kOtherLines =
+      0.25; // of the map's voxel, to which sweeps are reduced
+  if (is_lost_ || found.status == SweepStatus::kFirst)
+    submaps_.cut();
+  if (is_keyframe)
+    submaps_.addKeyframe(i, found);
+  else if (!is_lost_)
+    submaps_.addSweep(
+        i, found, tracker_.sweepsOfSurface() - 1, kOtherLines * tracker_.voxel());
   if (is_lost_)
     submaps_.cut();
-  correctOpening();
 }
 
 /** The first sweeps of a map are known better with the sweeps behind them. */
@@ -212,15 +155,10 @@ void
 TrackedDrive::correctOpening()
 {
   const std::vector<TrackedSweep>& opening = tracker_.openingOfSegment();
-  for (std::size_t k = 0; k < opening_.size(); ++k) {
-    Eigen::Isometry3d& known = drive_.poses[opening_[k]];
-    const Trajectory path = pathWithStamp(opening[k]);
-    if (known.matrix() == opening[k].T_world_sweep.matrix() &&
-        paths_[opening_[k]].stamps.size() == path.stamps.size())
-      continue;
-    known = opening[k].T_world_sweep;
-    paths_[opening_[k]] = path;
-    submaps_.correct(opening_[k], known);
+  for (std::size_t k = 0; k < opening.size(); ++k) {
+    drive_.poses[opening_[k]] = opening[k].T_world_sweep;
+    paths_[opening_[k]] = pathWithStamp(opening[k]);
+    submaps_.correct(opening_[k], opening[k]);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/io/scan_folder.h>
+#include <pcl6d/odometry/submaps.h>
 #include <pcl6d/odometry/sweep_tracker.h>
 
 #include <cstddef>
@@ -45,47 +46,6 @@ private:
   bool is_lost_ = false;
   std::size_t num_said_ = 0;
   std::string first_;
-};
-
-/** \brief Gathers the points of sweeps around each keyframe, as many as surfaces need. A sweep
- * between two keyframes belongs to the nearer one; no sweep belongs to both, so that errors of one
- * are not shared. */
-class Submaps {
-public:
-  /** \brief A sweep, or a keyframe with the points around it. */
-  struct Sweep {
-    std::size_t number = 0; ///< in the drive
-    Eigen::Isometry3d T_world_sweep;
-    Points thinned; ///< [m] in its frame
-  };
-
-  /** \brief Adds the next sweep. \param[in] wanted number of sweeps around each keyframe */
-  void
-  add(Sweep sweep, bool is_keyframe, std::size_t wanted);
-
-  /** \brief The track was lost, or begins anew: no sweep behind belongs to a keyframe before. */
-  void
-  cut();
-
-  /** \brief The pose of a sweep was corrected. */
-  void
-  correct(std::size_t number, const Eigen::Isometry3d& T_world_sweep);
-
-  /** \brief Takes the points [m] around a keyframe, in its frame, without its own points. */
-  Points
-  take(std::size_t keyframe)
-  {
-    return std::exchange(keyframes_.at(keyframe).thinned, {});
-  }
-
-private:
-  void
-  gather(std::size_t begin, std::size_t end, std::size_t wanted);
-
-  std::vector<Sweep> between_; ///< behind the last keyframe; of many, only a part
-  std::size_t wanted_ = 0;
-  std::vector<Sweep> keyframes_; ///< with the points around each, not its own
-  bool is_cut_ = false;          ///< behind the last keyframe
 };
 
 /** \brief The sweeps of a folder while they are tracked. Given poses of the scans, if any, fix the
@@ -131,10 +91,10 @@ public:
   bool
   isStepMeasured(std::size_t first, std::size_t last) const;
 
-  /** \brief Takes the points [m] of the sweeps around a keyframe, in its frame. \param[in] keyframe
+  /** \brief Takes the sweeps around a keyframe, with their poses in its frame. \param[in] keyframe
    * its number among the keyframes */
-  Points
-  takeAround(std::size_t keyframe)
+  std::vector<PosedPoints>
+  takeSubmap(std::size_t keyframe)
   {
     return submaps_.take(keyframe);
   }
@@ -153,6 +113,8 @@ private:
   prediction(std::size_t i) const;
   void
   correctOpening();
+  void
+  addToSubmaps(std::size_t i, const TrackedSweep& found, bool is_keyframe);
 
   const ScanFolder& folder_;
   const bool has_given_;

@@ -153,7 +153,7 @@ SweepTracker::Track::accept(const Current& now,
   is_open_ = match.free_directions > 0;
   num_lost_ = 0;
   ++num_matched_;
-  const Places places = thinnedPlaces(now, motion);
+  const Places places = reducedPlaces(now, motion);
   TrackedSweep found = placed(now, motion, places);
   found.status = was_lost ? SweepStatus::kFoundAgain : SweepStatus::kTracked;
   found.inliers = match.inliers;
@@ -166,7 +166,7 @@ SweepTracker::Track::accept(const Current& now,
   markKeyframe(now, motion, places, found);
   addToMap(places, motion);
   if (!opening_.empty())
-    keepOpening(now, found, prior, match, places);
+    keepOpening(now, prior, match, places, found);
   return found;
 }
 
@@ -200,7 +200,7 @@ SweepTracker::Track::placed(const Current& now,
                             const Places& places) const
 {
   TrackedSweep found = describe(now, motion);
-  found.thinned = odometry::inFrameOf(found.T_world_sweep, places);
+  found.reduced = odometry::inFrameOf(found.T_world_sweep, places);
   return found;
 }
 
@@ -223,7 +223,7 @@ SweepTracker::Track::lost(const Current& now)
 }
 
 SweepTracker::Track::Places
-SweepTracker::Track::thinnedPlaces(const Current& now, const SweepMotion& motion) const
+SweepTracker::Track::reducedPlaces(const Current& now, const SweepMotion& motion) const
 {
   return odometry::placesOf(
       odometry::thinned(now.span.points, kMapThinning * map_->options().voxel),
@@ -248,7 +248,7 @@ SweepTracker::Track::addToMap(const Places& places, const SweepMotion& motion)
 void
 SweepTracker::Track::markKeyframe(const Current& now,
                                   const SweepMotion& motion,
-                                  const Places& thinned,
+                                  const Places& reduced,
                                   TrackedSweep& found)
 {
   const double edge = std::ldexp(map_->options().voxel, 2);
@@ -272,7 +272,7 @@ SweepTracker::Track::markKeyframe(const Current& now,
   keyframe_at_ = here;
   found.is_keyframe = true;
   keyframe_ = VoxelNumbers();
-  for (const VoxelKey key : keysOf(thinned))
+  for (const VoxelKey key : keysOf(reduced))
     keyframe_.add(key);
 }
 

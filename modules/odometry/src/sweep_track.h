@@ -60,7 +60,7 @@ private:
   using Places = std::vector<Eigen::Vector3d>;
 
   /** The sweeps behind the opening, from which the opening is tracked backward. */
-  struct Turn {
+  struct BackwardStart {
     LocalMap map;
     std::size_t sweeps = 0;
     odometry::SweepMotion motion;          ///< of the first of them
@@ -81,16 +81,16 @@ private:
   correct(std::size_t number, TrackedSweep placed);
   void
   keepOpening(const Current& now,
-              const TrackedSweep& found,
               const odometry::SweepPrior& prior,
               const odometry::SweepMatch& match,
-              const Places& places);
-  void
+              const Places& places,
+              TrackedSweep& found);
+  bool
   trackBackward();
   double
   unevenness(const std::vector<odometry::SweepMotion>& motions) const;
   static Current
-  turnedBack(Current sweep);
+  timeReversed(Current sweep);
   TrackedSweep
   next(const Current& now);
   TrackedSweep
@@ -144,20 +144,20 @@ private:
   learn(const odometry::SweepPrior& prior, const odometry::SweepMatch& match);
   TrackedSweep
   describe(const Current& now, const odometry::SweepMotion& motion) const;
-  /** \return describe(), with the thinned points \param[in] places of them [m, world] */
+  /** \return describe(), with the reduced points \param[in] places of them [m, world] */
   TrackedSweep
   placed(const Current& now,
          const odometry::SweepMotion& motion,
          const Places& places) const;
-  /** \return the places of the points, thinned to the resolution of the map [m, world] */
+  /** \return the places of the points, reduced to the resolution of the map [m, world] */
   Places
-  thinnedPlaces(const Current& now, const odometry::SweepMotion& motion) const;
+  reducedPlaces(const Current& now, const odometry::SweepMotion& motion) const;
   void
   addToMap(const Places& places, const odometry::SweepMotion& motion);
   void
   markKeyframe(const Current& now,
                const odometry::SweepMotion& motion,
-               const Places& thinned,
+               const Places& reduced,
                TrackedSweep& found);
   LocalMap
   emptyMap() const;
@@ -168,7 +168,7 @@ private:
   double range_ = 0; ///< [m] typical range of the first sweep
   double reach_ = 0; ///< [m] of the sweeps so far
   double noise_ = 0; ///< [m]
-  std::optional<Turn> turn_;
+  std::optional<BackwardStart> backward_start_;
   std::vector<TrackedSweep> corrected_; ///< openingOfSegment()
   std::vector<Current> opening_;        ///< the first sweeps, until tracked backward
   std::vector<odometry::SweepMotion> opening_motions_;

@@ -38,14 +38,14 @@ SweepTracker::Track::begin(const Current& now)
   is_open_ = true;
   usual_fit_ = usual_overlap_ = usual_deviation_ = 0;
   map_ = emptyMap();
-  const auto places = thinnedPlaces(now, last_);
+  const auto places = reducedPlaces(now, last_);
   addToMap(places, last_);
   const double widest = widestGate();
   translation_sq_ = widest * widest;
   rotation_sq_ = translation_sq_ / (range_ * range_);
   opening_ = {now};
   opening_motions_ = {last_};
-  turn_.reset();
+  backward_start_.reset();
   TrackedSweep first = placed(now, last_, places);
   first.status = SweepStatus::kFirst;
   keyframe_ = VoxelNumbers();
@@ -75,7 +75,7 @@ SweepTracker::Track::second(const Current& now)
                      std::max(steps, 0.1);
     map_ = emptyMap();
     const SweepMotion& motion = opening_.front().is_timed ? last_ : at_rest;
-    addToMap(thinnedPlaces(opening_.front(), motion), motion);
+    addToMap(reducedPlaces(opening_.front(), motion), motion);
     const Twist change = last_.velocity - before;
     if (change.head<3>().norm() + range_ * change.tail<3>().norm() < kSettled * noise_)
       break;
@@ -87,13 +87,15 @@ SweepTracker::Track::second(const Current& now)
   }
   const SweepMotion& motion = opening_.front().is_timed ? last_ : at_rest;
   opening_motions_ = {motion};
-  correct(0, placed(opening_.front(), motion, thinnedPlaces(opening_.front(), motion)));
-  return accept(now, prior, found);
+  correct(0, placed(opening_.front(), motion, reducedPlaces(opening_.front(), motion)));
+  TrackedSweep accepted = accept(now, prior, found);
+  accepted.corrects_opening = true;
+  return accepted;
 }
 
 /** \return the sweep with the time running backward */
 SweepTracker::Track::Current
-SweepTracker::Track::turnedBack(Current sweep)
+SweepTracker::Track::timeReversed(Current sweep)
 {
   sweep.prediction.reset();
   sweep.begin = -(sweep.begin + sweep.length);
@@ -118,36 +120,39 @@ SweepTracker::Track::correct(std::size_t number, TrackedSweep placed)
   known = std::move(placed);
 }
 
-/** Keeps the sweeps of the opening, and a map of as many behind it. */
+/** Keeps the sweeps of the opening, and a map of as many behind it. Without times nothing is to be
+ * corrected.
+ * \param[in,out] found the sweep; told whether it corrects the opening */
 void
 SweepTracker::Track::keepOpening(const Current& now,
-                                 const TrackedSweep& found,
                                  const SweepPrior& prior,
                                  const SweepMatch& match,
-                                 const Places& places)
+                                 const Places& places,
+                                 TrackedSweep& found)
 {
+  if (!now.is_timed || !opening_.front().is_timed) {
+    opening_.clear();
+    backward_start_.reset();
+    return;
+  }
   if (opening_.size() < kSweepsOfOpening) {
     opening_.push_back(now);
     opening_motions_.push_back(last_);
     corrected_.push_back(found);
     return;
   }
-  if (!turn_)
-    turn_ = Turn{emptyMap(),
-                 0,
-                 last_,
-                 last_begin_,
-                 last_end_,
-                 last_length_,
-                 inverted<6>(match.begin_covariance),
-                 prior.centre};
-  turn_->map.add(places, last_.begin.translation());
-  if (++turn_->sweeps < kSweepsOfOpening)
-    return;
-  if (now.is_timed)
-    trackBackward();
-  opening_.clear();
-  turn_.reset();
+  if (!backward_start_)
+    backward_start_ = BackwardStart{emptyMap(),
+                                    0,
+                                    last_,
+                                    last_begin_,
+                                    last_end_,
+                                    last_length_,
+                                    inverted<6>(match.begin_covariance),
+                                    prior.centre};
+  backward_start_->map.add(places, last_.begin.translation());
+  if (++backward_start_->sweeps == kSweepsOfOpening)
+    found.corrects_opening = trackBackward();
 }
 
 /** \return [m] sum of the changes of the velocity from sweep to sweep, at the typical range; without
@@ -165,29 +170,36 @@ SweepTracker::Track::unevenness(const std::vector<SweepMotion>& motions) const
 
 /** Only the motion to the second sweep told the motion within the first one, and both may differ: a
  * drive may begin in a turn. The next sweeps were matched with a distorted map. All are tracked again
- * with the time running backward, from a map of the sweeps behind them. The first one is then known
- * better; of the others, the more even motion counts: errors of single sweeps look like jerks. */
-void
+ * with the time running backward, from a map of the sweeps behind them, and with the usual fit and
+ * the deviations learned so far. The first one is then known better; of the others, the more even
+ * motion counts: errors of single sweeps look like jerks. Where surfaces leave a direction free and
+ * a prediction was given, all stays: only the prediction knows the direction.
+ * \return whether a sweep was corrected */
+bool
 SweepTracker::Track::trackBackward()
 {
+  const std::vector<Current> opening = std::exchange(opening_, {});
+  BackwardStart start = *std::exchange(backward_start_, std::nullopt);
   Track back(*this);
-  back.opening_.clear();
-  back.map_ = turn_->map;
-  back.last_ = odometry::reversed(turn_->motion);
-  back.last_begin_ = -turn_->end;
-  back.last_end_ = -turn_->begin;
-  back.last_length_ = turn_->length;
-  back.end_information_ = turn_->begin_information;
-  back.information_centre_ = turn_->centre;
-  std::vector<SweepMotion> motions(opening_.size());
-  for (std::size_t k = opening_.size(); k-- > 0;) {
-    if (back.next(turnedBack(opening_[k])).status != SweepStatus::kTracked)
-      return;
+  back.map_ = std::move(start.map);
+  back.last_ = odometry::reversed(start.motion);
+  back.last_begin_ = -start.end;
+  back.last_end_ = -start.begin;
+  back.last_length_ = start.length;
+  back.end_information_ = start.begin_information;
+  back.information_centre_ = start.centre;
+  std::vector<SweepMotion> motions(opening.size());
+  for (std::size_t k = opening.size(); k-- > 0;) {
+    const TrackedSweep found = back.next(timeReversed(opening[k]));
+    const bool is_open = found.free_directions > 0 || corrected_[k].free_directions > 0;
+    if (found.status != SweepStatus::kTracked || (is_open && opening[k].prediction))
+      return false;
     motions[k] = odometry::reversed(back.last_);
   }
   const bool is_even = unevenness(motions) <= unevenness(opening_motions_);
-  for (std::size_t k = 0; k < (is_even ? opening_.size() : 1); ++k)
-    correct(k, placed(opening_[k], motions[k], thinnedPlaces(opening_[k], motions[k])));
+  for (std::size_t k = 0; k < (is_even ? opening.size() : 1); ++k)
+    correct(k, placed(opening[k], motions[k], reducedPlaces(opening[k], motions[k])));
+  return true;
 }
 
 } // namespace pcl6d

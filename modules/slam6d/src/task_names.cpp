@@ -19,8 +19,10 @@ inputsOf(std::uint64_t before,
   sum.add(scan.initial_pose);
   if (drive.is_step_measured)
     sum.add(std::uint32_t{1});
-  if (!drive.around.empty())
-    sum.add(drive.around);
+  for (const PosedPoints& sweep : drive.submap) {
+    sum.add(sweep.points);
+    sum.add(sweep.pose);
+  }
   if (scan.state != ScanState::kPending) { // by an earlier run
     sum.add(scan.T_world_scan);
     sum.add(static_cast<std::uint32_t>(scan.state));

@@ -326,7 +326,7 @@ MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) co
     ScanCheck& scan = map.scans[i];
     scan.abstains = scans_[i].abstains();
     scan.off_centre = scans_[i].isOffCentre();
-    scan.tied = ties.tied[i];
+    scan.tied = ties.tied[i] && !isUnregistered(i, options_.unregistered);
     if (!scan.tied)
       scan.doubt = ties.cut_from[i];
   }

@@ -62,8 +62,8 @@ packFields(Unpacker& unpacker, PreparedScan& scan)
 void
 KeptScans::add(const Points& points, const std::string& name, const DriveContext& drive)
 {
-  unreduced_.push_back(points);
-  around_.push_back(drive.around);
+  const bool is_own = !sharing_ || sharing_->owns(names_.size());
+  unreduced_.push_back({points, is_own ? drive.submap : std::vector<PosedPoints>()});
   names_.push_back(name);
   are_steps_measured_.push_back(drive.is_step_measured);
 }
@@ -73,10 +73,8 @@ KeptScans::forget(std::size_t place)
 {
   names_.resize(place);
   are_steps_measured_.resize(place);
-  if (reduced_.size() + unreduced_.size() > place) {
+  if (reduced_.size() + unreduced_.size() > place)
     unreduced_.pop_back();
-    around_.pop_back();
-  }
 }
 
 bool
@@ -91,8 +89,12 @@ Slam6DParameters
 KeptScans::derive(const Slam6DOptions& options) const
 {
   Slam6DParameters parameters;
-  if (isFirst())
-    parameters = deriveParameters(options, {unreduced_.begin(), unreduced_.end()});
+  if (isFirst()) {
+    std::vector<Points> scans;
+    for (const Waiting& scan : unreduced_)
+      scans.push_back(scan.points);
+    parameters = deriveParameters(options, scans);
+  }
   return sharing_ ? sharing_->fromFirst(parameters) : parameters;
 }
 
@@ -103,7 +105,6 @@ KeptScans::keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans)
   reduced_.push_back(std::move(reduced));
   measured_.emplace_back(std::move(gated));
   unreduced_.pop_front();
-  around_.pop_front();
 }
 
 void
@@ -116,7 +117,7 @@ KeptScans::prepare(const ScanMatcher& matcher,
     return prepareShared(matcher, parameters, scans);
   while (!unreduced_.empty()) {
     const std::string& name = names_[reduced_.size()];
-    Points gated = gateScan(unreduced_.front(), name, parameters);
+    Points gated = gateScan(unreduced_.front().points, name, parameters);
     IcpModel model = matcher.prepare(reduce(gated, 0, parameters));
     keep(std::move(model), std::move(gated), scans);
     if (report)
@@ -134,7 +135,7 @@ KeptScans::prepareShared(const ScanMatcher& matcher,
   const auto place = [&](std::size_t k) { return done + k; };
   sharedFor(sharing_, options_.num_threads, prepared, place, [&](std::size_t k) {
     const std::string& name = names_[done + k];
-    prepared[k].gated = gateScan(unreduced_[k], name, parameters);
+    prepared[k].gated = gateScan(unreduced_[k].points, name, parameters);
     prepared[k].model = matcher.prepare(reduce(prepared[k].gated, k, parameters));
   });
   for (PreparedScan& scan : prepared) {
@@ -144,7 +145,8 @@ KeptScans::prepareShared(const ScanMatcher& matcher,
       scan.model.emplace(
           std::move(scan.points), std::move(scan.normals), matcher.modelOptions(true));
     if (isFirst() && scan.gated.empty()) // the first process matches all scans
-      scan.gated = gateScan(unreduced_.front(), names_[reduced_.size()], parameters);
+      scan.gated =
+          gateScan(unreduced_.front().points, names_[reduced_.size()], parameters);
     keep(*std::move(scan.model), std::move(scan.gated), scans);
   }
 }
@@ -159,12 +161,18 @@ KeptScans::reduce(const Points& gated,
   reduction.points_per_voxel = options_.reduction_points;
   reduction.seed = options_.seed;
   const std::string& name = names_[reduced_.size() + k];
-  if (around_[k].empty() || parameters.planar_rows.value > 0)
+  const std::vector<PosedPoints>& submap = unreduced_[k].submap;
+  if (submap.empty() || parameters.planar_rows.value > 0)
     return reduceScan(gated, name, parameters, reduction);
-  Points submap = gated;
-  const Points around = gateByRange(around_[k], 0, parameters.max_range.value);
-  submap.insert(submap.end(), around.begin(), around.end());
-  return reduceScan(submap, name, parameters, reduction);
+  Points all = gated;
+  for (const PosedPoints& sweep : submap) {
+    const Points moved = transformed(gateByRange(sweep.points,
+                                                 parameters.min_range.value,
+                                                 parameters.max_range.value),
+                                     sweep.pose);
+    all.insert(all.end(), moved.begin(), moved.end());
+  }
+  return reduceScan(all, name, parameters, reduction);
 }
 
 } // namespace pcl6d::slam6d

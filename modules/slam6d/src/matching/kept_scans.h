@@ -125,8 +125,13 @@ private:
   void
   keep(IcpModel reduced, Points gated, std::vector<ScanResult>& scans);
 
-  /** \return the reduced points of the first unreduced scans, with those of the sweeps around
-   * \param[in] k number among the unreduced scans */
+  struct Waiting {
+    Points points;
+    std::vector<PosedPoints> submap; ///< DriveContext
+  };
+
+  /** \return the reduced points of a waiting scan and its submap \param[in] k its number among the
+   * waiting scans */
   Points
   reduce(const Points& gated, std::size_t k, const Slam6DParameters& parameters) const;
 
@@ -135,9 +140,8 @@ private:
   std::size_t revision_ = 0;
   std::vector<std::string> names_;
   std::vector<bool> are_steps_measured_;
-  std::deque<Points> unreduced_; ///< scans without parameters yet
-  std::deque<Points> around_;    ///< of the unreduced scans (DriveContext)
-  std::deque<IcpModel> reduced_; ///< a deque: the matcher keeps references to elements
+  std::deque<Waiting> unreduced_; ///< scans without parameters yet
+  std::deque<IcpModel> reduced_;  ///< a deque: the matcher keeps references to elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next
 };
 

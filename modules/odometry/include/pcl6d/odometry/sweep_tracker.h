@@ -58,11 +58,12 @@ struct TrackedSweep {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int free_directions = 0; ///< of the pose, not fixed by a surface, but by the
                            ///< prediction or constant velocity
-  /** [m] in the frame at the stamp: points of the sweep without the motion within, thinned to the
+  /** [m] in the frame at the stamp: points of the sweep without the motion within, reduced to the
    * resolution of the map; of a lost sweep none */
-  Points thinned;
-  bool is_keyframe = false; ///< much of the sweep is new; the keyframes
-                            ///< together cover the map
+  Points reduced;
+  bool corrects_opening = false; ///< SweepTracker::openingOfSegment() has changed
+  bool is_keyframe = false;      ///< much of the sweep is new; the keyframes
+                                 ///< together cover the map
 };
 
 /** \brief Knobs of SweepTracker. */
@@ -115,9 +116,12 @@ public:
   TrackedSweep
   track(const Sweep& sweep);
 
-  /** \return the first ten sweeps of the current segment at most, in order, without lost ones, as
-   * known so far. Where points have times, the second sweep tells the motion within the first; after
-   * ten sweeps, all are tracked again backward */
+  /** \return the first sweeps of the current segment in order, without lost ones, as known so far.
+   * The second sweep tells the motion within the first. Where all points have times, the first ten
+   * sweeps are kept, and with the twentieth they are tracked again backward: the first one is then
+   * corrected, and the others if their motion becomes more even. TrackedSweep::corrects_opening
+   * tells of each change. A caller with absolute predictions moves all sweeps by the correction of the
+   * first one */
   const std::vector<TrackedSweep>&
   openingOfSegment() const;
 

@@ -4,6 +4,7 @@
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/common/posed_points.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/moving_objects/point_motion.h>
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace PCL6D_EXPORTS pcl6d {
 
@@ -27,10 +29,11 @@ struct DriveContext {
   /** surfaces measured the motion of the initial poses from the scan before, without a direction
    * left open: where the match of both scans leaves a direction open, this motion fixes it */
   bool is_step_measured = false;
-  /** [m] in the scan's frame: points of the sweeps around the scan, at their tracked poses. The
-   * scan is matched and relaxed with these points, too (a submap), since a single sweep of few
-   * lines shows only lines of a surface. Rays, dynamic points and the map are of the scan alone. */
-  Points around;
+  /** sweeps around the scan, each with T_scan_sweep as tracked: the scan is matched, relaxed and
+   * verified with their points, too, since few lines of a single sweep show no surface. They are
+   * gated as scans are, and reduced together. Rays and the map are of the scan alone; of 2D scans,
+   * dense as they are, only the scan counts */
+  std::vector<PosedPoints> submap;
 };
 
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a consistent trajectory

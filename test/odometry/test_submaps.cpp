@@ -113,8 +113,8 @@ TEST(Submaps, CorrectedPosesAndPointsCountWhereverTheSweepIs)
 {
   Submaps submaps;
   drive(13, 100, submaps);
-  submaps.correct(0, sweepAt(0.5, 0));   // a keyframe
-  submaps.correct(2, sweepAt(2.25, 70)); // already around it
+  submaps.correct(0, sweepAt(0.5, 0));    // a keyframe
+  submaps.correct(2, sweepAt(2.25, 70));  // already around it
   submaps.correct(12, sweepAt(12.5, 80)); // behind the last keyframe
   submaps.addKeyframe(20, sweepAt(20, 20));
   const auto first = submaps.take(0), second = submaps.take(1);

@@ -212,6 +212,43 @@ TEST(SweepTracker, PredictionsDecideAlongATunnel)
   EXPECT_LT(error.tail<2>().norm(), 0.02);
 }
 
+// A drive that speeds up from rest: backward at constant velocity, the first sweep would lie metres
+// off.
+TEST(SweepTracker, AlongATunnelTheOpeningStaysAsPredicted)
+{
+  pcl6d::Random random(3);
+  const auto poseAt = [](double time) {
+    return pcl6d::poseFromEuler({2 * time * time, 0, 0}, {0, 0, 0});
+  };
+  pcl6d::SweepTracker tracker;
+  TrackedSweep last;
+  constexpr int kCount = 24;
+  for (int i = 0; i < kCount; ++i) {
+    Sweep sweep;
+    sweep.stamp = kSweepTime * i;
+    sweep.prediction = poseAt(*sweep.stamp);
+    for (int k = 0; k < 6000; ++k) {
+      const double time = kSweepTime * k / 6000, turn = random.uniform(-M_PI, M_PI);
+      const Eigen::Isometry3d T_world_sensor = poseAt(*sweep.stamp + time);
+      const double across = 2 + 0.002 * random.normal();
+      const double wide = std::max(std::abs(std::cos(turn)), std::abs(std::sin(turn)));
+      const Eigen::Vector3d point(T_world_sensor.translation().x() +
+                                      random.uniform(-8, 8),
+                                  across * std::cos(turn) / wide,
+                                  across * std::sin(turn) / wide);
+      sweep.points.push_back((T_world_sensor.inverse() * point).cast<float>());
+      sweep.times.push_back(time);
+    }
+    last = tracker.track(sweep);
+    ASSERT_NE(last.status, SweepStatus::kLost) << i;
+  }
+  const double way =
+      (tracker.openingOfSegment()[0].T_world_sweep.inverse() * last.T_world_sweep)
+          .translation()
+          .x();
+  EXPECT_NEAR(way, poseAt(kSweepTime * (kCount - 1)).translation().x(), 0.1); // 10.6 m
+}
+
 TEST(SweepTracker, ThreadsDoNotChangeBits)
 {
   CorridorSweeps corridor;

@@ -20,8 +20,9 @@ Submaps::addSweep(std::size_t number,
   wanted_ = wanted;
   if (wanted == 0 || keyframes_.empty())
     return;
-  const Eigen::Isometry3d& before = between_.empty() ? keyframes_.back().T_world_keyframe
-                                                     : between_.back().reduced.pose;
+  const Eigen::Isometry3d& before = between_.empty()
+                                        ? keyframes_.back().T_world_keyframe
+                                        : between_.back().reduced.pose;
   if ((sweep.T_world_sweep.translation() - before.translation()).norm() < least)
     return;
   if (between_.size() == kMostBetween) {

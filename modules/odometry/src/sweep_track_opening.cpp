@@ -172,8 +172,8 @@ SweepTracker::Track::unevenness(const std::vector<SweepMotion>& motions) const
  * drive may begin in a turn. The next sweeps were matched with a distorted map. All are tracked again
  * with the time running backward, from a map of the sweeps behind them, and with the usual fit and
  * the deviations learned so far. The first one is then known better; of the others, the more even
- * motion counts: errors of single sweeps look like jerks. Where surfaces leave a direction free and
- * a prediction was given, all stays: only the prediction knows the direction.
+ * motion counts: errors of single sweeps look like jerks. Where the map leaves a direction free
+ * and a prediction was given, all stays: only the prediction knows the direction.
  * \return whether a sweep was corrected */
 bool
 SweepTracker::Track::trackBackward()
@@ -191,8 +191,8 @@ SweepTracker::Track::trackBackward()
   std::vector<SweepMotion> motions(opening.size());
   for (std::size_t k = opening.size(); k-- > 0;) {
     const TrackedSweep found = back.next(timeReversed(opening[k]));
-    const bool is_open = found.free_directions > 0 || corrected_[k].free_directions > 0;
-    if (found.status != SweepStatus::kTracked || (is_open && opening[k].prediction))
+    const bool is_predicted = found.free_directions > 0 && opening[k].prediction;
+    if (found.status != SweepStatus::kTracked || is_predicted)
       return false;
     motions[k] = odometry::reversed(back.last_);
   }

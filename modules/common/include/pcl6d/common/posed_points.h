@@ -10,7 +10,7 @@ namespace PCL6D_EXPORTS pcl6d {
 
 /** \brief Points with the pose of their frame. \ingroup common */
 struct PosedPoints {
-  Points points; ///< [m] in their own frame
+  Points points;                                          ///< [m] in their own frame
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity(); ///< of their frame
 };
 

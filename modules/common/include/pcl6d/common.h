@@ -16,6 +16,7 @@
 #include <pcl6d/common/parameter.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
+#include <pcl6d/common/posed_points.h>
 #include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>

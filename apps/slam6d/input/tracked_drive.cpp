@@ -137,15 +137,12 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
 void
 TrackedDrive::addToSubmaps(std::size_t i, const TrackedSweep& found, bool is_keyframe)
 {
-  constexpr double kOtherLines =
-      0.25; // of the map's voxel, to which sweeps are reduced
   if (is_lost_ || found.status == SweepStatus::kFirst)
     submaps_.cut();
   if (is_keyframe)
     submaps_.addKeyframe(i, found);
   else if (!is_lost_)
-    submaps_.addSweep(
-        i, found, tracker_.sweepsOfSurface() - 1, kOtherLines * tracker_.voxel());
+    submaps_.addSweep(i, found, tracker_.sweepsOfSurface() - 1, tracker_.resolution());
   if (is_lost_)
     submaps_.cut();
 }

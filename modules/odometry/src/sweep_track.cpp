@@ -102,12 +102,18 @@ SweepTracker::Track::setClock(const Sweep& sweep, Current& now) const
     now.begin = next;
 }
 
+double
+SweepTracker::Track::resolution() const
+{
+  return kMapThinning * voxel();
+}
+
 /** Voxels follow from the lines; the finest useful ones follow from the noise. */
 std::size_t
 SweepTracker::Track::sweepsOfSurface() const
 {
   return static_cast<std::size_t>(
-      std::lround(std::ceil(voxel() / std::max(kVoxelOfRange * range_, 1e-9))));
+      std::ceil(voxel() / std::max(kVoxelOfRange * range_, 1e-9)));
 }
 
 LocalMap
@@ -226,9 +232,7 @@ SweepTracker::Track::Places
 SweepTracker::Track::reducedPlaces(const Current& now, const SweepMotion& motion) const
 {
   return odometry::placesOf(
-      odometry::thinned(now.span.points, kMapThinning * map_->options().voxel),
-      motion,
-      options_.num_threads);
+      odometry::thinned(now.span.points, resolution()), motion, options_.num_threads);
 }
 
 void

@@ -38,6 +38,8 @@ public:
   {
     return map_ ? map_->options().voxel : 0;
   }
+  double
+  resolution() const;
   std::size_t
   sweepsOfSurface() const;
   std::size_t

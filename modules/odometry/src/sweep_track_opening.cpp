@@ -110,14 +110,11 @@ void
 SweepTracker::Track::correct(std::size_t number, TrackedSweep placed)
 {
   TrackedSweep& known = corrected_[number];
-  placed.status = known.status;
-  placed.is_keyframe = known.is_keyframe;
-  placed.inliers = known.inliers;
-  placed.overlap = known.overlap;
-  placed.deviation = known.deviation;
-  placed.covariance = known.covariance;
-  placed.free_directions = known.free_directions;
-  known = std::move(placed);
+  known.T_world_sweep = placed.T_world_sweep;
+  known.T_world_begin = placed.T_world_begin;
+  known.T_world_end = placed.T_world_end;
+  known.path = std::move(placed.path);
+  known.reduced = std::move(placed.reduced);
 }
 
 /** Keeps the sweeps of the opening, and a map of as many behind it. Without times nothing is to be

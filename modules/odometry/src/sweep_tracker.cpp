@@ -69,6 +69,12 @@ SweepTracker::voxel() const
   return track_->voxel();
 }
 
+double
+SweepTracker::resolution() const
+{
+  return track_->resolution();
+}
+
 std::size_t
 SweepTracker::sweepsOfSurface() const
 {

@@ -16,11 +16,11 @@
 #include <pcl6d/common/parameter.h>
 #include <pcl6d/common/plane.h>
 #include <pcl6d/common/points.h>
-#include <pcl6d/common/posed_points.h>
 #include <pcl6d/common/polygon.h>
 #include <pcl6d/common/portable_math.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/pose_graph.h>
+#include <pcl6d/common/posed_points.h>
 #include <pcl6d/common/progress.h>
 #include <pcl6d/common/random.h>
 #include <pcl6d/common/rejection.h>

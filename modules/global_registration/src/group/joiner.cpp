@@ -135,7 +135,7 @@ Joiner::leaveTorn()
 bool
 Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& other)
 {
-  if (!mayExplain(other, own))
+  if (!isLargeEnough(other, own))
     return false;
   const auto places = placement_.placesOf(scan, other.scans);
   if (places.empty() ||
@@ -157,12 +157,12 @@ Joiner::isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& ot
       [this](std::size_t one, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
         return areSamePlace(a, b, scans_[one]->cell());
       };
-  return mayExplain(other, own) &&
+  return isLargeEnough(other, own) &&
          placedAlike(own.scans.members(), *other.alone, are_same).count(scan) == 0;
 }
 
 bool
-Joiner::mayExplain(const JoinedGroup& other, const JoinedGroup& own) const
+Joiner::isLargeEnough(const JoinedGroup& other, const JoinedGroup& own) const
 {
   const auto alone =
       other.alone ? std::make_optional(other.alone->size()) : std::nullopt;

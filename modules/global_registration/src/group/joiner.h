@@ -85,7 +85,7 @@ private:
   bool
   isAnotherPlace(std::size_t scan, const JoinedGroup& own, JoinedGroup& other);
   bool
-  mayExplain(const JoinedGroup& other, const JoinedGroup& own) const;
+  isLargeEnough(const JoinedGroup& other, const JoinedGroup& own) const;
   void
   dropSingles();
   void

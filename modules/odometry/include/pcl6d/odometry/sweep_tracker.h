@@ -129,6 +129,11 @@ public:
   double
   voxel() const;
 
+  /** \return [m] edge of the voxels to which sweeps are reduced (TrackedSweep::reduced); 0 before the
+   * first sweep */
+  double
+  resolution() const;
+
   /** \return the number of sweeps whose lines together are as close as the noise of the sensor lets
    * them tell surfaces apart: 1 for dense sweeps, 4 for 16 lines with 2 degrees in between; 0
    * before the first sweep */

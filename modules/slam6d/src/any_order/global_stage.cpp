@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "any_order/global_stage.h"
 #include "any_order/joined_runs.h"
+#include "any_order/kept_pieces.h"
 #include "packing.h"
 #include "registered.h"
 
@@ -96,6 +97,7 @@ GlobalStage::GlobalStage(const Slam6DOptions& options,
 
 void
 GlobalStage::run(const std::vector<std::size_t>& runs,
+                 const KnownPlaces& pieces,
                  WorkSharing* sharing,
                  const ProgressCallback& report,
                  Slam6DResult& result) const
@@ -106,7 +108,7 @@ GlobalStage::run(const std::vector<std::size_t>& runs,
   result.floating.clear();
   result.graph = PoseGraph();
   const JoinedScans joined =
-      join(runs, result.scans, report); // each process gets equal groups
+      join(runs, pieces, result.scans, report); // each process gets equal groups
   moveRuns(runs, joined, result);
   if (scans_.isFirst())
     match(runs, joined, result);
@@ -130,6 +132,7 @@ GlobalStage::run(const std::vector<std::size_t>& runs,
 
 JoinedScans
 GlobalStage::join(const std::vector<std::size_t>& runs,
+                  const KnownPlaces& pieces,
                   const std::vector<ScanResult>& scans,
                   const ProgressCallback& report) const
 {
@@ -142,10 +145,15 @@ GlobalStage::join(const std::vector<std::size_t>& runs,
   join.memory = &recovery_.pairs();
   join.num_threads = options_.num_threads;
   join.progress = report;
-  join.known = knownPlaces(runs, scans);
+  const auto known = knownPlaces(runs, scans);
+  join.known = withPieces(known, pieces);
+  if (isBounded(options_) && !pieces.empty()) {
+    join.pairs = pairsBesidePieces(pieces);
+    join.max_pairs = mostPlacedPairs(scans);
+  }
   JoinedScans joined = joinScans(placeable, join);
-  requireJoined(join.known, joined);
-  sortKnown(join.known, scans, joined);
+  requireJoined(known, joined);
+  sortKnown(known, scans, joined);
   return joined;
 }
 

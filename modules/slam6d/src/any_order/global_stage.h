@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "any_order/joined_runs.h"
 #include "graph/graph_stage.h"
 #include "matching/kept_scans.h"
 #include "matching/scan_matcher.h"
@@ -39,11 +40,13 @@ public:
    * run keep their poses and form the first group. Further runs are each moved in one piece into
    * the world of the first run.
    * \param[in] runs number of the run of each registered scan; registered scans come first
+   * \param[in] pieces poses of scans in pieces that stay in one piece; may be empty
    * \param[in] report of progress; may throw to end the stage
    * \param[in,out] result not to be used after report threw
    * \throws GroupsApart runs cannot be joined */
   void
   run(const std::vector<std::size_t>& runs,
+      const KnownPlaces& pieces,
       WorkSharing* sharing,
       const ProgressCallback& report,
       Slam6DResult& result) const;
@@ -51,6 +54,7 @@ public:
 private:
   JoinedScans
   join(const std::vector<std::size_t>& runs,
+       const KnownPlaces& pieces,
        const std::vector<ScanResult>& scans,
        const ProgressCallback& report) const;
   void

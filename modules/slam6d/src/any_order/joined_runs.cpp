@@ -9,8 +9,6 @@
 namespace pcl6d::slam6d {
 
 namespace {
-using KnownPlaces = std::vector<std::optional<KnownPlace>>;
-
 /** \return the number of the run whose world is kept; none without known poses */
 std::optional<std::size_t>
 firstGroupOf(const KnownPlaces& known)

@@ -12,24 +12,27 @@
  * parameter `runs` has the run number of each registered scan; registered scans come first. */
 namespace pcl6d::slam6d {
 
+/** For each scan its pose in a group, if known. */
+using KnownPlaces = std::vector<std::optional<KnownPlace>>;
+
 /** \return whether a scan belongs to a further run, not to the run with the smallest number, whose
  * world is kept */
 bool
 isOfFurtherRun(std::size_t scan, const std::vector<std::size_t>& runs);
 
 /** \return for each registered scan its pose in its run */
-std::vector<std::optional<KnownPlace>>
+KnownPlaces
 knownPlaces(const std::vector<std::size_t>& runs, const std::vector<ScanResult>& scans);
 
 /** \throws GroupsApart a run is not joined to the run with the smallest number */
 void
-requireJoined(const std::vector<std::optional<KnownPlace>>& known,
+requireJoined(const KnownPlaces& known,
               const JoinedScans& joined);
 
 /** \brief Sorts scans with known poses to the front of their groups: first the fixed scan of the
  * first run, then the rest in the order of their indices. */
 void
-sortKnown(const std::vector<std::optional<KnownPlace>>& known,
+sortKnown(const KnownPlaces& known,
           const std::vector<ScanResult>& scans,
           JoinedScans& joined);
 

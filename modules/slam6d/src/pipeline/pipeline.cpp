@@ -74,6 +74,7 @@ takeResultOfFirst(SlamState& state, const SlamContext& context)
     return;
   state.next = ofFirst(state.next, context);
   state.breaks = ofFirst(state.breaks, context);
+  state.pieces = ofFirst(state.pieces, context);
   const std::string bytes =
       ofFirst(context.isFirst() ? packed(state.result) : std::string(), context);
   if (!context.isFirst())

@@ -4,7 +4,20 @@
 
 #include <pcl6d/common/pose.h>
 
+#include <algorithm>
+
 namespace pcl6d::slam6d {
+
+std::vector<std::size_t>
+comparedOfPiece(const std::vector<std::size_t>& piece)
+{
+  constexpr std::size_t kCompared = 4;
+  const std::size_t count = std::min(kCompared, piece.size());
+  std::vector<std::size_t> some;
+  for (std::size_t k = 0; k < count; ++k)
+    some.push_back(piece[count == 1 ? 0 : k * (piece.size() - 1) / (count - 1)]);
+  return some;
+}
 
 PieceMatcher::PieceMatcher(const Slam6DOptions& options,
                            const Slam6DParameters& parameters,
@@ -24,16 +37,28 @@ PieceMatcher::take(const ScanResult& scan)
     return false;
   }
   if (matcher_ && follow(i)) {
-    piece_.push_back(i);
+    pieces_.back().push_back(i);
     return true;
   }
-  for (const std::size_t earlier : piece_)
-    own_[earlier].state = ScanState::kPending; // of a different piece
+  if (!pieces_.empty())
+    for (const std::size_t earlier : pieces_.back())
+      own_[earlier].state = ScanState::kPending; // of a different piece
   own_[i].T_world_scan = scan.T_world_scan;
   matcher_.emplace(options_, parameters_);
   matcher_->fix(scans_.reduced()[i], scans_.measured()[i], own_[i]);
-  piece_ = {i};
+  pieces_.push_back({i});
   return false;
+}
+
+std::vector<std::optional<KnownPlace>>
+PieceMatcher::places() const
+{
+  std::vector<std::optional<KnownPlace>> places(own_.size());
+  for (std::size_t p = 0; p < pieces_.size(); ++p)
+    if (pieces_[p].size() > 1)
+      for (const std::size_t i : pieces_[p])
+        places[i] = KnownPlace{p + 1, own_[i].T_world_scan};
+  return places;
 }
 
 /** Matches a scan with the last piece. \return whether the match is accepted */

@@ -5,10 +5,18 @@
 #include "matching/scan_matcher.h"
 #include "recovery/recovery.h"
 
+#include <pcl6d/global_registration/scan_joiner.h>
+
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace pcl6d::slam6d {
+
+/** \return the scans of a piece that a bounded search compares with other scans: up to four, evenly
+ * chosen, with the first and the last */
+std::vector<std::size_t>
+comparedOfPiece(const std::vector<std::size_t>& piece);
 
 /** \brief Matches consecutive lost scans with each other: pieces beside the map. */
 class PieceMatcher {
@@ -26,6 +34,18 @@ public:
   bool
   take(const ScanResult& scan);
 
+  /** \return the pieces: single lost scans, or consecutive lost scans matched with each other */
+  const std::vector<std::vector<std::size_t>>&
+  pieces() const
+  {
+    return pieces_;
+  }
+
+  /** \return for each taken scan its pose in its piece of several scans; pieces are groups 1, 2, ...
+   */
+  std::vector<std::optional<KnownPlace>>
+  places() const;
+
   /** \return the scans taken, lost scans at their poses in the frames of their pieces */
   const std::vector<ScanResult>&
   own() const
@@ -42,7 +62,7 @@ private:
   const KeptScans& scans_;
   Recovery& recovery_;
   std::optional<ScanMatcher> matcher_; ///< of the last piece
-  std::vector<std::size_t> piece_;     ///< the last
+  std::vector<std::vector<std::size_t>> pieces_;
   std::vector<ScanResult> own_;
 };
 

@@ -45,7 +45,19 @@ constexpr std::size_t kMatchesOfSearch = 24;
 
 /** Number of long searches without success that are always allowed: a few seconds. */
 constexpr std::size_t kLeastSearches = 2;
+
+/** Matching a pair of scans without prediction takes as long as kMatchesOfPlacement matches (2.5 to
+ * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. */
+constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
 } // namespace
+
+std::size_t
+mostPlacedPairs(const std::vector<ScanResult>& scans)
+{
+  const auto registered = static_cast<std::size_t>(
+      std::count_if(scans.begin(), scans.end(), isRegistered));
+  return std::max(kLeastPlaced, registered / kMatchesOfPlacement);
+}
 
 bool
 isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded)

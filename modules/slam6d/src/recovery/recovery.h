@@ -20,6 +20,11 @@ namespace pcl6d::slam6d {
 bool
 isBounded(const Slam6DOptions& options);
 
+/** \return how many pairs of scans a bounded search matches without prediction: as many as take the
+ * time of matching the registered scans, and 16 at least */
+std::size_t
+mostPlacedPairs(const std::vector<ScanResult>& scans);
+
 /** Result of rays on the latest links of a map. */
 enum class RayTest {
   kUnproven, ///< there are no links yet

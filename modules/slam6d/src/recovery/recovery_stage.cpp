@@ -18,13 +18,9 @@ namespace {
  * scans nearest to its predicted position. */
 constexpr std::size_t kAllCompared = 150, kCompared = 50;
 
-/** In a bounded search, kLookedForOfPiece evenly chosen scans of a piece are compared with their
- * neighbours in time, up to kNeighbours away, and with the kNeighbours nearest scans. */
-constexpr std::size_t kLookedForOfPiece = 4, kNeighbours = 12;
-
-/** Matching a pair of scans without prediction takes as long as kMatchesOfPlacement matches (2.5 to
- * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. */
-constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
+/** In a bounded search, a scan is compared with its neighbours in time, up to kNeighbours away, and
+ * with the kNeighbours nearest scans. */
+constexpr std::size_t kNeighbours = 12;
 
 /** \return the result of a search that found no scan a place in the map, which is group 0 */
 JoinedScans
@@ -73,23 +69,17 @@ RecoveryStage::whyInVain(const Piece& piece) const
   return piece.size() > 1 ? Rejection() : recovery_.whyUnconfirmable(piece.front());
 }
 
-/** \return the pieces: single lost scans, or consecutive lost scans matched with each other */
 std::vector<RecoveryStage::Piece>
 RecoveryStage::piecesOf(const ProgressCallback& report, const Slam6DResult& result)
 {
   PieceMatcher matcher(options_, result.parameters, scans_, recovery_);
-  std::vector<Piece> pieces;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     if (report)
       report({"matching what is lost", i, result.scans.size()});
-    const bool is_following = matcher.take(result.scans[i]);
-    if (is_following)
-      pieces.back().push_back(i);
-    else if (result.scans[i].state == ScanState::kPredicted)
-      pieces.push_back({i});
+    matcher.take(result.scans[i]);
   }
   own_ = matcher.own();
-  return pieces;
+  return matcher.pieces();
 }
 
 /** Registers pieces by the odometry of the scans after them, and removes these pieces from the
@@ -119,10 +109,8 @@ RecoveryStage::askedOf(const std::vector<Piece>& pieces) const
   for (const Piece& piece : pieces) {
     if (whyInVain(piece))
       continue;
-    const std::size_t count =
-        isBounded(options_) ? std::min(kLookedForOfPiece, piece.size()) : piece.size();
-    for (std::size_t k = 0; k < count; ++k) // including the first and the last
-      asked.push_back(piece[count == 1 ? 0 : k * (piece.size() - 1) / (count - 1)]);
+    const Piece some = isBounded(options_) ? comparedOfPiece(piece) : piece;
+    asked.insert(asked.end(), some.begin(), some.end());
   }
   return asked;
 }
@@ -169,10 +157,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);
   if (isBounded(options_))
-    join.max_pairs = std::max(
-        kLeastPlaced,
-        (result.scans.size() - countScans(result.scans, ScanState::kPredicted)) /
-            kMatchesOfPlacement);
+    join.max_pairs = mostPlacedPairs(result.scans);
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));

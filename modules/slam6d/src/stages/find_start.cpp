@@ -80,6 +80,8 @@ private:
     const bool is_continued = is_whole && isMostlyConnected(ordered);
     if (is_continued)
       keepConnected(ordered, state.result);
+    else
+      state.pieces.clear();
     if (!is_whole || !tryAnyOrder(state, context))
       throw Cancelled();
     StartResult any_order = startOf(state.result, InitialGuess::kGlobal);

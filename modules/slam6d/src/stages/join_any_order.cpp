@@ -15,6 +15,7 @@ class JoinAnyOrder : public Stage {
         });
     stage.run(
         state.groups,
+        state.pieces,
         context.sharing,
         [&](const Progress& now) { context.report(now); },
         state.result);

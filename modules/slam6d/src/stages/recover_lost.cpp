@@ -8,7 +8,7 @@ class RecoverLost : public Stage {
   bool
   isDue(const SlamState& state) const override
   {
-    return isRecovering(state.options) &&
+    return isRecovering(state.options) && !state.is_order_tried && // any order follows
            (state.improved < state.size() || state.is_second_look);
   }
 

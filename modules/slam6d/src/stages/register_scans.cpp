@@ -54,6 +54,8 @@ public:
       if (context.progress)
         context.progress({"matching", state.next, total});
     }
+    if (state.is_order_tried)
+      state.pieces = pieces.places();
     context.cancelled = false; // including a request during the last scan
     for (std::size_t i = state.next; i < total; ++i)
       state.predict(i);

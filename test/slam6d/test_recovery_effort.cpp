@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What recovery may cost: a bounded search ends where its time does, and nothing is searched where
 // nothing can be found.
+#include "any_order/kept_pieces.h"
 #include "corridor_drive.h"
 #include "recovery/recovery.h"
 #include "recovery/second_look.h"
+#include "support/constants.h"
 
 #include <pcl6d/slam6d/slam6d.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,24 @@ using pcl6d::Slam6DResult;
 using pcl6d::test::DriftingRun;
 using pcl6d::test::makeCorridorRun;
 using pcl6d::test::movedBy;
+
+TEST(Recovery, OfAPieceOnlySomeScansAreComparedWithOthers)
+{
+  using pcl6d::slam6d::KnownPlaces;
+  EXPECT_TRUE(pcl6d::slam6d::pairsBesidePieces(KnownPlaces(10)).empty());
+  KnownPlaces pieces(12); // scans 0 to 2 and 10 are in none
+  for (std::size_t i = 3; i < 10; ++i)
+    pieces[i] = pcl6d::KnownPlace{1, pcl6d::test::kIdentity};
+  pieces[11] = pcl6d::KnownPlace{2, pcl6d::test::kIdentity};
+  const auto pairs = pcl6d::slam6d::pairsBesidePieces(pieces);
+  std::set<std::size_t> compared;
+  for (const auto& [first, second] : pairs) {
+    EXPECT_LT(first, second);
+    compared.insert({first, second});
+  }
+  EXPECT_EQ(compared, (std::set<std::size_t>{0, 1, 2, 3, 5, 7, 9, 10, 11}));
+  EXPECT_EQ(pairs.size(), 36U); // each of nine with each other
+}
 
 TEST(Recovery, EffortsHaveWords)
 {

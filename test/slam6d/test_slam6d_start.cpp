@@ -190,6 +190,37 @@ TEST(Slam6DStart, AGapIsASingleBreakOfTheOrder)
   }
 }
 
+TEST(Slam6DStart, APieceLostBehindAGapIsPlacedInTheMap)
+{
+  Walk walk;
+  pcl6d::Random random(6);
+  pcl6d::test::PillarRoom room;
+  room.pillars.emplace_back(Eigen::Vector3d(3.5, 1, -1), Eigen::Vector3d(7, 4, 2));
+  walk.truth.resize(6);
+  walk.scans.resize(6);
+  for (int i = 0; i < 2; ++i) { // of another room: they use up the long searches
+    walk.truth.push_back(kIdentity);
+    walk.scans.push_back(
+        otherRoom().scan(pcl6d::planarPose(0.2, -3 + 0.4 * i, 0), random, 0.03));
+  }
+  for (int i = 0; i < 3; ++i) { // turned more than any motion predicts
+    walk.truth.push_back(pcl6d::planarPose(-0.5 + 0.3 * i, 0.2, 3.1 + 0.05 * i));
+    walk.scans.push_back(room.scan(walk.truth.back(), random, 0.03));
+  }
+  const Slam6DResult result = resultOf(walk.scans);
+  ASSERT_EQ(result.starts.size(), 2U);
+  EXPECT_EQ(result.starts[0].connected, 6U);
+  EXPECT_TRUE(result.starts[1].is_continued);
+  EXPECT_EQ(result.starts[1].connected, 9U);
+  EXPECT_EQ(result.floating, (std::vector<std::size_t>{6, 7}));
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 5U, 8U, 9U, 10U}) {
+    const auto error = pcl6d::distanceBetween(walk.truth[0].inverse() * walk.truth[i],
+                                              result.scans[i].T_world_scan);
+    EXPECT_LT(error.translation, 0.03) << i;
+    EXPECT_LT(error.rotation, 0.01) << i;
+  }
+}
+
 TEST(Slam6DStart, TurnsThatNoMotionPredictsAreFound)
 {
   const Slam6DResult result = resultOf(turned().scans);

@@ -26,8 +26,7 @@ knownPlaces(const std::vector<std::size_t>& runs, const std::vector<ScanResult>&
 
 /** \throws GroupsApart a run is not joined to the run with the smallest number */
 void
-requireJoined(const KnownPlaces& known,
-              const JoinedScans& joined);
+requireJoined(const KnownPlaces& known, const JoinedScans& joined);
 
 /** \brief Sorts scans with known poses to the front of their groups: first the fixed scan of the
  * first run, then the rest in the order of their indices. */

@@ -3,6 +3,8 @@
 
 #include "any_order/joined_runs.h"
 
+#include <pcl6d/common/export.h>
+
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -17,7 +19,7 @@ withPieces(KnownPlaces known, const KnownPlaces& pieces);
 
 /** \return the pairs of scans to compare: of each piece only some scans (comparedOfPiece()) with all
  * other scans; empty, which means every pair, without pieces */
-std::vector<std::pair<std::size_t, std::size_t>>
+PCL6D_EXPORTS std::vector<std::pair<std::size_t, std::size_t>> // exported for its test
 pairsBesidePieces(const KnownPlaces& pieces);
 
 } // namespace pcl6d::slam6d

@@ -74,7 +74,8 @@ struct SlamState {
   std::size_t next = 0;               ///< first unregistered scan
   std::size_t improved = 0;           ///< number of scans at the last relaxation
   bool is_order_tried = false;        ///< the order of the scans is only a trial
-  KnownPlaces pieces;     ///< of a trial: poses of lost scans in pieces matched with each other
+  KnownPlaces
+      pieces; ///< of a trial: poses of lost scans in pieces matched with each other
   std::size_t breaks = 0; ///< of a trial: scans matched neither with the map nor with a
                           ///< lost scan before
   bool is_second_look =

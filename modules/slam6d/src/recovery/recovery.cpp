@@ -54,8 +54,8 @@ constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
 std::size_t
 mostPlacedPairs(const std::vector<ScanResult>& scans)
 {
-  const auto registered = static_cast<std::size_t>(
-      std::count_if(scans.begin(), scans.end(), isRegistered));
+  const auto registered =
+      static_cast<std::size_t>(std::count_if(scans.begin(), scans.end(), isRegistered));
   return std::max(kLeastPlaced, registered / kMatchesOfPlacement);
 }
 

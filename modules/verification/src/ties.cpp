@@ -147,6 +147,14 @@ public:
     }
   }
 
+  void
+  cutScan(std::size_t scan)
+  {
+    Cut cut_off;
+    keepWorse(crossingOf(scan, scan + 1), cut_off);
+    cut(cut_off);
+  }
+
   Ties
   ties()
   {
@@ -309,6 +317,13 @@ private:
   std::vector<Counted> own_;
   Ties ties_;
 };
+/** \return whether parts can be tested: else ray tests are inconclusive, or too few links remain for
+ * a background */
+bool
+isTestable(const std::vector<LinkCheck>& links, double background)
+{
+  return background <= kMostBackground && links.size() >= kLeastLinks;
+}
 } // namespace
 
 Ties
@@ -320,12 +335,25 @@ tiesOf(std::size_t num_scans,
   if (num_scans == 0)
     return {};
   Cutter cutter(num_scans, links, cut_from);
-  // Else ray tests are inconclusive, or too few links remain for a background.
-  if (background <= kMostBackground && links.size() >= kLeastLinks) {
+  if (isTestable(links, background)) {
     cutter.cutParts();
     cutter.cutBridges();
   }
   return cutter.ties();
+}
+
+Rejection
+contradictionOfScan(std::size_t scan,
+                    std::size_t num_scans,
+                    const std::vector<LinkCheck>& links,
+                    double background,
+                    double cut_from)
+{
+  if (!isTestable(links, background))
+    return {};
+  Cutter cutter(num_scans, links, cut_from);
+  cutter.cutScan(scan);
+  return cutter.ties().cut_from[scan];
 }
 
 } // namespace pcl6d::verification

@@ -79,7 +79,7 @@ contradictionByAll(const std::vector<LinkEvidence>& of_place,
     all.patches += link.sight.patches;
     all.contradicted += link.sight.contradicted_patches;
   }
-  return verification::tiesOf(rest + 1, checks, background, cut_from).cut_from[scan];
+  return verification::contradictionOfScan(scan, rest + 1, checks, background, cut_from);
 }
 
 std::vector<LinkEvidence>

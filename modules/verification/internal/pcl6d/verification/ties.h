@@ -34,5 +34,15 @@ tiesOf(std::size_t num_scans,
        double background,
        double cut_from = kGoodBelow);
 
+/** \brief Tests a scan as tiesOf() tests parts, but no other part: where few links are known besides
+ * those of the scan, a cut between other scans leaves no link for a background.
+ * \return why the scan's links together contradict its pose; empty if they do not */
+Rejection
+contradictionOfScan(std::size_t scan,
+                    std::size_t num_scans,
+                    const std::vector<LinkCheck>& links,
+                    double background,
+                    double cut_from = kGoodBelow);
+
 } // namespace verification
 } // namespace pcl6d

@@ -178,3 +178,31 @@ TEST(Ties, OfALongChainAreFoundWithoutRecursion)
   EXPECT_TRUE(ties.tied[1001]);
   EXPECT_TRUE(tiesOf(0, {}, kTieBackground).tied.empty());
 }
+
+// Three scans of a crowd, where one patch in twenty is contradicted, and a fourth with its links.
+TEST(Ties, ACutBetweenOtherScansDoesNotContradictAScan)
+{
+  using pcl6d::verification::contradictionOfScan;
+  const std::size_t scan = 3, rest = 4;
+  const auto links_of = [&](std::size_t contradicted) {
+    std::vector<LinkCheck> links;
+    for (std::size_t k = 0; k < scan; ++k) {
+      links.push_back(link(k, scan, LinkTrust::kGood, contradicted));
+      links.push_back(link(k, rest, LinkTrust::kGood, 0, 0));
+    }
+    links.back().patches = 600; // the links between the three
+    links.back().contradicted = 30;
+    return links;
+  };
+  constexpr double kRatherWrong = 0.5, kOfCrowd = 0.04;
+  EXPECT_FALSE(
+      contradictionOfScan(scan, rest + 1, links_of(16), kOfCrowd, kRatherWrong));
+  const auto found =
+      contradictionOfScan(scan, rest + 1, links_of(90), kOfCrowd, kRatherWrong);
+  EXPECT_EQ(found.reason, pcl6d::RejectReason::kInconsistentTogether);
+  EXPECT_EQ(found.measured, 270);
+  EXPECT_EQ(found.needed, 900);
+  // All parts tested: a cut with every link leaves none for a background.
+  EXPECT_TRUE(
+      tiesOf(rest + 1, links_of(16), kOfCrowd, kRatherWrong).cut_from[scan]);
+}

@@ -144,10 +144,12 @@ public:
       add(y, 1, wide_);
     for (int y = kAround + 1; y < side_ - kAround - 1; ++y) {
       add(y + kAround, 1, wide_);
-      sumBeside(y);
-      for (int x = kAround + 1; x < side_ - kAround - 1; ++x)
-        if (is_peak_[static_cast<std::size_t>(x)])
-          best.emplace_back(-standingOut(x), y * side_ + x);
+      markPeaks(y);
+      int x = nextPeak(kAround + 1);
+      if (x >= 0)
+        sumBeside();
+      for (; x >= 0; x = nextPeak(x + 1))
+        best.emplace_back(-standingOut(x), y * side_ + x);
       add(y - kAround, -1, wide_);
     }
     const std::size_t count = std::min(best.size(), kShiftsOfTurn);
@@ -189,10 +191,9 @@ private:
       columns[static_cast<std::size_t>(x)] += times * votes[x];
   }
 
-  /** Sums of the votes around the cells of a row, and its peaks: cells with enough votes around,
-   * and at least as many as each neighbour. */
+  /** Peaks of a row: cells with enough votes around, and at least as many as each neighbour. */
   void
-  sumBeside(int y)
+  markPeaks(int y)
   {
     const std::uint16_t *const below = row(y - 1), *const here = row(y),
                                *const above = row(y + 1);
@@ -210,8 +211,24 @@ private:
                                  above[x + 1]});
       is_peak_[i] = static_cast<char>((here[x] >= most) & (square(x) >= kLeastVotes));
     }
+  }
+
+  /** \return the next peak of the row from x on, except near its ends; -1: none */
+  int
+  nextPeak(int x) const
+  {
+    const auto from = is_peak_.begin() + x, end = is_peak_.end() - (kAround + 1);
+    const auto peak = from < end ? std::find(from, end, char{1}) : end;
+    return peak == end ? -1 : static_cast<int>(peak - is_peak_.begin());
+  }
+
+  /** Sums of the votes around the cells of the row. */
+  void
+  sumBeside()
+  {
+    int sum = 0;
     for (std::size_t x = 0; x < wide_.size(); ++x)
-      left_[x + 1] = left_[x] + wide_[x];
+      left_[x + 1] = sum += wide_[x];
   }
 
   /** Votes of the cell of the current row and its eight neighbours. */

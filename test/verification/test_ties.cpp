@@ -203,6 +203,5 @@ TEST(Ties, ACutBetweenOtherScansDoesNotContradictAScan)
   EXPECT_EQ(found.measured, 270);
   EXPECT_EQ(found.needed, 900);
   // All parts tested: a cut with every link leaves none for a background.
-  EXPECT_TRUE(
-      tiesOf(rest + 1, links_of(16), kOfCrowd, kRatherWrong).cut_from[scan]);
+  EXPECT_TRUE(tiesOf(rest + 1, links_of(16), kOfCrowd).cut_from[scan]);
 }

@@ -327,14 +327,11 @@ isTestable(const std::vector<LinkCheck>& links, double background)
 } // namespace
 
 Ties
-tiesOf(std::size_t num_scans,
-       const std::vector<LinkCheck>& links,
-       double background,
-       double cut_from)
+tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
 {
   if (num_scans == 0)
     return {};
-  Cutter cutter(num_scans, links, cut_from);
+  Cutter cutter(num_scans, links, kGoodBelow);
   if (isTestable(links, background)) {
     cutter.cutParts();
     cutter.cutBridges();

@@ -54,13 +54,14 @@ contradictionBy(const std::vector<LinkEvidence>& of_place,
   return {};
 }
 
-/** Joint evidence of the links of a pose: a cut in a map with good links elsewhere.
- * \param[in] links of the map, to estimate the usual share of contradictions
- * \param[in] cut_from least probability of a wrong pose that rejects it */
+/** Joint evidence of the links of a pose: a cut in a map with good links elsewhere. A pose found
+ * anywhere (kConnected) may be one of several that look alike: it is rejected, too, if the few known
+ * links contradict as much as its own. A predicted pose is not, since people or cars explain that.
+ * \param[in] links of the map, to estimate the usual share of contradictions */
 Rejection
 contradictionByAll(const std::vector<LinkEvidence>& of_place,
                    const std::vector<LinkEvidence>& links,
-                   double cut_from)
+                   PlaceNeeds needs)
 {
   const double background = contradictionBackground(links);
   const std::size_t scan = of_place.size(), rest = scan + 1; // the others come first
@@ -79,7 +80,10 @@ contradictionByAll(const std::vector<LinkEvidence>& of_place,
     all.patches += link.sight.patches;
     all.contradicted += link.sight.contradicted_patches;
   }
-  return verification::contradictionOfScan(scan, rest + 1, checks, background, cut_from);
+  return needs == PlaceNeeds::kConnected
+             ? verification::tiesOf(rest + 1, checks, background).cut_from[scan]
+             : verification::contradictionOfScan(
+                   scan, rest + 1, checks, background, kElsewhere);
 }
 
 std::vector<LinkEvidence>
@@ -108,10 +112,7 @@ rejectionBy(std::vector<LinkEvidence> of_place,
     return contradiction;
   if (!is_held)
     return RejectReason::kNoConsistentLink;
-  return contradictionByAll(of_place,
-                            links,
-                            needs == PlaceNeeds::kConnected ? verification::kGoodBelow
-                                                            : kElsewhere);
+  return contradictionByAll(of_place, links, needs);
 }
 } // namespace
 

@@ -26,23 +26,20 @@ constexpr double kGoodBelow = 0.01;
  * a map that jointly contradict their relative pose: after a jump of the odometry to a similar
  * place, a few links across the jump may seem consistent. Tested parts: consecutive scans, because
  * an odometry error displaces all later scans, and parts connected by a single link.
- * \param[in] background of the map
- * \param[in] cut_from least probability of a wrong place at which a part is cut */
+ * \param[in] background of the map */
 Ties
-tiesOf(std::size_t num_scans,
-       const std::vector<LinkCheck>& links,
-       double background,
-       double cut_from = kGoodBelow);
+tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);
 
 /** \brief Tests a scan as tiesOf() tests parts, but no other part: where few links are known besides
  * those of the scan, a cut between other scans leaves no link for a background.
+ * \param[in] cut_from least probability of a wrong place that rejects the scan
  * \return why the scan's links together contradict its pose; empty if they do not */
 Rejection
 contradictionOfScan(std::size_t scan,
                     std::size_t num_scans,
                     const std::vector<LinkCheck>& links,
                     double background,
-                    double cut_from = kGoodBelow);
+                    double cut_from);
 
 } // namespace verification
 } // namespace pcl6d

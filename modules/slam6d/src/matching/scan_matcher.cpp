@@ -171,6 +171,14 @@ ScanMatcher::isSmallCorrection(const ScanResult& scan,
          distanceBetween(predicted, scan.T_world_scan).rotation <= kSmallTurn;
 }
 
+bool
+ScanMatcher::isWithinPairDistance(const ScanResult& scan,
+                                  const Eigen::Isometry3d& predicted) const
+{
+  return isSmallCorrection(scan, predicted) &&
+         scan.correction <= parameters_.max_distance.value;
+}
+
 void
 ScanMatcher::matchFrom(const StartingPose& start,
                        const IcpModel& points,

@@ -141,6 +141,17 @@ SequenceMatcher::recover(const ProgressCallback& report, Slam6DResult& result)
   RecoveryStage(options_, scans_, recovery_, matcher_).run(report, result);
 }
 
+/** \return whether a match stays, by less than its pair distance, where the sweeps in between were
+ * tracked: whatever moves around the scanner, it is at no other place */
+bool
+SequenceMatcher::isWhereTracked(const ScanResult& found,
+                                std::size_t i,
+                                const std::vector<ScanResult>& scans) const
+{
+  return scans_.isStepMeasured(i) && isRegistered(scans[i - 1]) &&
+         matcher_.isWithinPairDistance(found, predictedPose(scans, i));
+}
+
 /** \return whether a match needs confirmation by points and rays: the previous scan was lost, the
  * odometry was far off, or a quick check raises doubts */
 bool
@@ -148,7 +159,7 @@ SequenceMatcher::isDoubtful(const ScanResult& found,
                             std::size_t i,
                             const std::vector<ScanResult>& scans)
 {
-  return isRecovering(options_) &&
+  return isRecovering(options_) && !isWhereTracked(found, i, scans) &&
          (!isRegistered(scans[i - 1]) ||
           !matcher_.isSmallCorrection(found, predictedPose(scans, i)) ||
           recovery_.seemsContradicted(i, found.T_world_scan, scans));

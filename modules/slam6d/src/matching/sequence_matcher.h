@@ -61,6 +61,10 @@ private:
   bool
   isFixedByStep(std::size_t scan, const std::vector<ScanResult>& scans) const;
   bool
+  isWhereTracked(const ScanResult& found,
+                 std::size_t scan,
+                 const std::vector<ScanResult>& scans) const;
+  bool
   isDoubtful(const ScanResult& found,
              std::size_t scan,
              const std::vector<ScanResult>& scans);

@@ -99,6 +99,28 @@ TEST(PoseBounds, OfOneLinkAreThoseOfTheLink)
   EXPECT_TRUE(map.scans[1].covariance->isApprox(covariance, 1e-9));
 }
 
+// The first scan's frame is turned about z by 0.01 rad (1 sigma): 4 m away, that is 4 cm along y.
+TEST(PoseBounds, ContainTheFramesOfTheScanAndOfTheFirst)
+{
+  const Matrix6 covariance = diagonalBound(0.01, 0.001);
+  auto map = mapOf(2, {link(0, 1, covariance)});
+  const Poses poses = {Eigen::Isometry3d::Identity(),
+                       poseFromEuler({4, 0, 0}, {0, 0, M_PI / 2})};
+  std::vector<Matrix6> frames(2, Matrix6::Zero());
+  frames[0](5, 5) = 0.01 * 0.01;
+  frames[1](2, 2) = 0.02 * 0.02;
+  pcl6d::boundPoses(poses, map, 1, frames);
+  Matrix6 expected = covariance;
+  expected(0, 0) += 0.04 * 0.04; // the second scan looks along y
+  expected(5, 5) += 0.01 * 0.01;
+  expected(0, 5) = expected(5, 0) = expected(0, 5) + 0.04 * 0.01;
+  expected(2, 2) += 0.02 * 0.02;
+  ASSERT_TRUE(map.scans[1].covariance);
+  EXPECT_TRUE(map.scans[1].covariance->isApprox(expected, 1e-9))
+      << *map.scans[1].covariance;
+  EXPECT_THROW(pcl6d::boundPoses(poses, map, 1, {Matrix6::Zero()}), pcl6d::BadArgument);
+}
+
 TEST(PoseBounds, AreTheRadiiOfSpheresThatHold95PercentOfTheErrors)
 {
   Random random(11);

@@ -181,10 +181,11 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   found.drive = tracked.result();
   folder.replacePoses(found.drive->poses, tracked.source());
   const std::vector<std::size_t>& keyframes = tracked.keyframes();
+  const auto frames = tracked.frames();
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count) {
     for (std::size_t i = 0; i < count; ++i) {
       found.paths.push_back(tracked.path(i));
-      found.contexts.push_back({tracked.isStepMeasured(i, i), {}});
+      found.contexts.push_back({tracked.isStepMeasured(i, i), {}, frames[i]});
     }
     found.drive.reset();
     return found;
@@ -196,6 +197,7 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
     found.paths.push_back(tracked.path(i));
     DriveContext context;
     context.is_step_measured = tracked.isStepMeasured(after, i);
+    context.frame = frames[i];
     if (!is_filtered) // tracking reads the sweeps as measured
       context.submap = tracked.takeSubmap(found.contexts.size());
     found.contexts.push_back(std::move(context));

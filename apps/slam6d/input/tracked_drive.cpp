@@ -120,6 +120,14 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
   lost_.see(i, found.status);
   drive_.poses.push_back(found.T_world_sweep);
   paths_.push_back(pathWithStamp(found));
+  const double stamp = i < drive_.stamps.size() ? drive_.stamps[i] : 0;
+  ends_.push_back({found.T_world_begin,
+                   found.T_world_end,
+                   found.begin,
+                   found.end,
+                   stamp,
+                   found.status == SweepStatus::kTracked,
+                   found.is_uneven});
   are_measured_.push_back(found.status == SweepStatus::kTracked && !is_open_);
   num_lost_ += is_lost_ ? 1 : 0;
   if (found.corrects_opening)
@@ -155,6 +163,9 @@ TrackedDrive::correctOpening()
   for (std::size_t k = 0; k < opening.size(); ++k) {
     drive_.poses[opening_[k]] = opening[k].T_world_sweep;
     paths_[opening_[k]] = pathWithStamp(opening[k]);
+    ends_[opening_[k]].T_world_begin = opening[k].T_world_begin;
+    ends_[opening_[k]].T_world_end = opening[k].T_world_end;
+    ends_[opening_[k]].is_uneven = opening[k].is_uneven;
     submaps_.correct(opening_[k], opening[k]);
   }
 }

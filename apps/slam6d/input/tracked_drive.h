@@ -6,6 +6,7 @@
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/io/scan_folder.h>
 #include <pcl6d/odometry/submaps.h>
+#include <pcl6d/odometry/sweep_frames.h>
 #include <pcl6d/odometry/sweep_tracker.h>
 
 #include <cstddef>
@@ -91,6 +92,13 @@ public:
   bool
   isStepMeasured(std::size_t first, std::size_t last) const;
 
+  /** \return for each sweep the covariance of its frame (DriveContext::frame) */
+  std::vector<Eigen::Matrix<double, 6, 6>>
+  frames() const
+  {
+    return frameCovariances(ends_);
+  }
+
   /** \brief Takes the sweeps around a keyframe, with their poses in its frame. \param[in] keyframe
    * its number among the keyframes */
   std::vector<PosedPoints>
@@ -124,6 +132,7 @@ private:
   std::vector<Trajectory> paths_;
   std::vector<bool> are_measured_; ///< the motion of each sweep from that before
   std::vector<std::size_t> keyframes_;
+  std::vector<SweepEnds> ends_;
   Submaps submaps_;
   std::vector<std::size_t> opening_; ///< sweeps of SweepTracker::openingOfSegment()
   bool is_lost_ = false, is_open_ = false; ///< the sweep before

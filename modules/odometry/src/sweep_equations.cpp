@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sweep_equations.h"
 
+#include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/rotation.h>
 
 #include <array>
@@ -88,14 +89,22 @@ SweepEquations::add(const SweepPrior& prior, const SweepMotion& motion)
       errorAbout(prior.centre,
                  motion.end(),
                  motion.begin * motionFromTwist(prior.motion.velocity));
-  const Matrix6 steady = velocityInformation(prior, 1);
+  // Expected velocity, given the begin.
+  const Matrix6 with_begin = prior.velocity_with_begin * begin;
+  const Matrix6 uncertain = prior.velocity_covariance -
+                            with_begin * prior.velocity_with_begin.transpose() +
+                            inverted<6>(velocityInformation(prior, 1));
+  const Matrix6 steady = inverted<6>(0.5 * (uncertain + uncertain.transpose()));
   // The centre is near the scanner: a change of its velocity is a change about the centre.
-  normal_.topLeftCorner<6, 6>() += steady;
+  const Matrix6 of_begin = -Matrix6::Identity() - with_begin;
+  const Twist off = steady * (off_velocity - with_begin * off_begin);
+  const Matrix6 mixed = of_begin.transpose() * steady;
+  normal_.topLeftCorner<6, 6>() += mixed * of_begin;
   normal_.bottomRightCorner<6, 6>() += steady;
-  normal_.topRightCorner<6, 6>() -= steady;
-  normal_.bottomLeftCorner<6, 6>() -= steady;
-  side_.head<6>() -= steady * off_velocity;
-  side_.tail<6>() += steady * off_velocity;
+  normal_.topRightCorner<6, 6>() += mixed;
+  normal_.bottomLeftCorner<6, 6>() += mixed.transpose();
+  side_.head<6>() += of_begin.transpose() * off;
+  side_.tail<6>() += off;
   if (side_.size() > 12)
     addSteadiness(prior, motion);
 }

@@ -270,8 +270,9 @@ private:
         std::max(1.0, count / static_cast<double>(last - surfaces.begin()));
     const Eigen::MatrixXd covariance =
         normal_.ldlt().solve(Eigen::MatrixXd::Identity(normal_.rows(), normal_.cols()));
-    match.begin_covariance = covariance.topLeftCorner<6, 6>();
-    match.end_information = inverted<6>(Matrix6(covariance.bottomRightCorner<6, 6>()));
+    match.covariance << covariance.topLeftCorner<6, 6>(),
+        covariance.topRightCorner<6, 6>(), covariance.bottomLeftCorner<6, 6>(),
+        covariance.bottomRightCorner<6, 6>();
     match.free_directions = localizability(match.deviation).openDirections();
   }
 

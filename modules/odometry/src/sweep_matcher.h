@@ -9,12 +9,16 @@
 namespace pcl6d::odometry {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 /** \brief Prior of the motion of a sweep before the match, and the initial motion. */
 struct SweepPrior {
   SweepMotion motion; ///< expected
   /** [1/m^2, 1/(m rad), 1/rad^2] of the begin, for motions about `centre`, in world axes */
   Matrix6 begin_information = Matrix6::Zero();
+  /** of the expected velocity, and of it with the begin: both follow from the sweep before. The
+   * points of a sweep fix its middle best, so errors of its end and velocity have one cause */
+  Matrix6 velocity_covariance = Matrix6::Zero(), velocity_with_begin = Matrix6::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< [m, world]
   bool goes_on = true;     ///< the sweep begins where the matched sweep before ended
   bool holds_open = false; ///< surfaces count only in directions that they fix
@@ -45,9 +49,8 @@ struct SweepMatch {
                   ///< parts of a sweep do not count
   double deviation = 1;   ///< of distances, in deviations of their surfaces
   double correlation = 1; ///< points per surface
-  Matrix6 begin_covariance = Matrix6::Zero(); ///< about `centre` of the prior
-  Matrix6 end_information = Matrix6::Zero();  ///< information of the end,
-                                              ///< about `centre`
+  Matrix12 covariance =
+      Matrix12::Zero();    ///< of begin and end, about `centre` of the prior
   double distortion = 0;   ///< [m] of points without times by an unexpected turn
   bool is_further = false; ///< matched further along the way: sweeps seem to be missing
   int free_directions = 0; ///< of the pose, not fixed by a surface

@@ -62,14 +62,14 @@ placesOf(const SweepPoints& points, const SweepMotion& motion, unsigned int num_
 }
 
 /** A motion (xb, x) about `from` is (xb + x x (to - from), x) about `to`. */
-Eigen::Matrix<double, 6, 6>
-movedInformation(const Eigen::Matrix<double, 6, 6>& information,
-                 const Eigen::Vector3d& from,
-                 const Eigen::Vector3d& to)
+Eigen::Matrix<double, 12, 12>
+movedCovariance(const Eigen::Matrix<double, 12, 12>& covariance,
+                const Eigen::Vector3d& from,
+                const Eigen::Vector3d& to)
 {
-  Eigen::Matrix<double, 6, 6> back = Eigen::Matrix<double, 6, 6>::Identity();
-  back.topRightCorner<3, 3>() = skew(to - from);
-  return back.transpose() * information * back;
+  Eigen::Matrix<double, 12, 12> there = Eigen::Matrix<double, 12, 12>::Identity();
+  there.block<3, 3>(0, 3) = there.block<3, 3>(6, 9) = -skew(to - from);
+  return there * covariance * there.transpose();
 }
 
 } // namespace pcl6d::odometry

@@ -83,10 +83,10 @@ placesOf(const SweepPoints& points,
          const SweepMotion& motion,
          unsigned int num_threads);
 
-/** \return the information of a motion about the point `to`, from the information about `from` */
-Eigen::Matrix<double, 6, 6>
-movedInformation(const Eigen::Matrix<double, 6, 6>& information,
-                 const Eigen::Vector3d& from,
-                 const Eigen::Vector3d& to);
+/** \return the covariance of two motions about the point `to`, from that about `from` */
+Eigen::Matrix<double, 12, 12>
+movedCovariance(const Eigen::Matrix<double, 12, 12>& covariance,
+                const Eigen::Vector3d& from,
+                const Eigen::Vector3d& to);
 
 } // namespace pcl6d::odometry

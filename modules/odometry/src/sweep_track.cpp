@@ -153,8 +153,8 @@ SweepTracker::Track::accept(const Current& now,
   last_ = motion;
   last_begin_ = now.begin;
   last_end_ = now.begin + (now.is_timed ? now.length : 0);
-  end_information_ = match.end_information;
-  information_centre_ = prior.centre;
+  last_covariance_ = match.covariance;
+  last_centre_ = prior.centre;
   correlation_ = match.correlation;
   is_open_ = match.free_directions > 0;
   num_lost_ = 0;
@@ -167,12 +167,12 @@ SweepTracker::Track::accept(const Current& now,
   found.deviation =
       distanceBetween(prior.motion.end(), match.motion.end()).translation +
       range_ * distanceBetween(prior.motion.end(), match.motion.end()).rotation;
-  found.covariance = match.begin_covariance;
+  found.covariance = match.covariance.topLeftCorner<6, 6>();
   found.free_directions = match.free_directions;
   markKeyframe(now, motion, places, found);
   addToMap(places, motion);
   if (!opening_.empty())
-    keepOpening(now, prior, match, places, found);
+    keepOpening(now, prior, match, found);
   return found;
 }
 
@@ -182,6 +182,7 @@ SweepTracker::Track::describe(const Current& now, const SweepMotion& motion) con
 {
   TrackedSweep found;
   found.segment = segment_;
+  found.is_uneven = !motion.offsets.empty();
   found.points = now.span.points.size();
   found.begin = now.span.begin;
   found.end = now.span.end;

@@ -17,6 +17,11 @@ namespace odometry {
 inline constexpr std::size_t kLeastSweepPoints = 100;
 } // namespace odometry
 
+namespace odometry {
+/** The gate, in standard deviations of the predictions (KISS-ICP). */
+inline constexpr double kGateDeviations = 3;
+} // namespace odometry
+
 /** \brief The state of a SweepTracker. */
 class SweepTracker::Track {
 public:
@@ -61,15 +66,14 @@ private:
 
   using Places = std::vector<Eigen::Vector3d>;
 
-  /** The sweeps behind the opening, from which the opening is tracked backward. */
-  struct BackwardStart {
-    LocalMap map;
-    std::size_t sweeps = 0;
-    odometry::SweepMotion motion;          ///< of the first of them
-    double begin = 0, end = 0, length = 1; ///< in the clock
-    odometry::Matrix6 begin_information;   ///< about `centre`
-    Eigen::Vector3d centre;
+  /** A sweep of the opening. */
+  struct OpeningSweep {
+    Current now;
+    odometry::SweepMotion motion;
+    odometry::Matrix12 covariance = odometry::Matrix12::Zero(); ///< about `centre`
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   };
+  using OpeningSweeps = std::vector<OpeningSweep>;
 
   Current
   prepare(const Sweep& sweep);
@@ -85,12 +89,28 @@ private:
   keepOpening(const Current& now,
               const odometry::SweepPrior& prior,
               const odometry::SweepMatch& match,
-              const Places& places,
               TrackedSweep& found);
   bool
-  trackBackward();
+  improveOpening(OpeningSweeps sweeps);
+  bool
+  straighten(OpeningSweeps& sweeps) const;
+  bool
+  matchAgain(const LocalMap& map, OpeningSweep& sweep) const;
+  Twist
+  commonJump(const OpeningSweeps& sweeps) const;
+  bool
+  trackBackward(const OpeningSweeps& behind, OpeningSweeps& first) const;
+  bool
+  matchOpening(const OpeningSweeps& behind, OpeningSweeps& first) const;
+  LocalMap
+  mapOf(const OpeningSweeps& sweeps) const;
   double
-  unevenness(const std::vector<odometry::SweepMotion>& motions) const;
+  lengthOf(const Twist& motion) const
+  {
+    return motion.head<3>().norm() + range_ * motion.tail<3>().norm();
+  }
+  double
+  unevenness(const OpeningSweeps& sweeps) const;
   static Current
   timeReversed(Current sweep);
   TrackedSweep
@@ -126,7 +146,15 @@ private:
              odometry::SweepPrior loose,
              odometry::SweepMatch& best) const;
   odometry::SweepMatch
-  match(const Current& now, const odometry::SweepPrior& prior, double gate) const;
+  match(const LocalMap& map,
+        const Current& now,
+        const odometry::SweepPrior& prior,
+        double gate) const;
+  odometry::SweepMatch
+  match(const Current& now, const odometry::SweepPrior& prior, double gate) const
+  {
+    return match(*map_, now, prior, gate);
+  }
   bool
   isMatched(const odometry::SweepMatch& match) const;
   double
@@ -167,19 +195,18 @@ private:
   SweepTrackerOptions options_;
   std::optional<LocalMap> map_;
   std::optional<odometry::SweepSampler> sampler_;
-  double range_ = 0; ///< [m] typical range of the first sweep
-  double reach_ = 0; ///< [m] of the sweeps so far
-  double noise_ = 0; ///< [m]
-  std::optional<BackwardStart> backward_start_;
+  double range_ = 0;                    ///< [m] typical range of the first sweep
+  double reach_ = 0;                    ///< [m] of the sweeps so far
+  double noise_ = 0;                    ///< [m]
   std::vector<TrackedSweep> corrected_; ///< openingOfSegment()
-  std::vector<Current> opening_;        ///< the first sweeps, until tracked backward
-  std::vector<odometry::SweepMotion> opening_motions_;
+  OpeningSweeps opening_;               ///< the first sweeps, until improved
   std::size_t segment_ = 0;
   std::size_t num_sweeps_ = 0, num_matched_ = 0, num_lost_ = 0; ///< lost: in a row
 
   odometry::SweepMotion last_; ///< of the last matched sweep
-  odometry::Matrix6 end_information_ = odometry::Matrix6::Zero();
-  Eigen::Vector3d information_centre_ = Eigen::Vector3d::Zero();
+  odometry::Matrix12 last_covariance_ =
+      odometry::Matrix12::Zero(); ///< of its begin and end, about `last_centre_`
+  Eigen::Vector3d last_centre_ = Eigen::Vector3d::Zero();
   double last_begin_ = 0, last_end_ = 0, last_length_ = 1; ///< in the clock
   double translation_sq_ = 0,
          rotation_sq_ = 0; ///< of the deviations from constant velocity

@@ -10,15 +10,13 @@
 
 namespace pcl6d {
 
+using odometry::kGateDeviations;
 using odometry::Matrix6;
 using odometry::SweepMatch;
 using odometry::SweepMotion;
 using odometry::SweepPrior;
 
 namespace {
-/** The gate, in standard deviations of the predictions (KISS-ICP). */
-constexpr double kGateDeviations = 3;
-
 /** Deviation of the motion within a sweep from a linear change of velocity, as a share of the
  * deviation of predictions: an eighth is the sagitta of a sudden change. */
 constexpr double kUnevenShare = 0.125;
@@ -116,15 +114,23 @@ SweepTracker::Track::priorOf(const Current& now) const
   const double t = spread * prior.translation, r = spread * prior.rotation;
   covariance.diagonal() << Eigen::Vector3d::Constant(t * t),
       Eigen::Vector3d::Constant(r * r);
-  if (goes_on && num_lost_ == 0 && num_matched_ > 1)
-    covariance += inverted<6>(odometry::movedInformation(
-        end_information_, information_centre_, prior.centre));
+  if (goes_on && num_lost_ == 0 && num_matched_ > 1) {
+    const odometry::Matrix12 before =
+        odometry::movedCovariance(last_covariance_, last_centre_, prior.centre);
+    const Matrix6 end = before.bottomRightCorner<6, 6>(),
+                  both = before.bottomLeftCorner<6, 6>();
+    covariance += end;
+    prior.velocity_with_begin = end - both.transpose();
+    prior.velocity_covariance =
+        end + before.topLeftCorner<6, 6>() - both - both.transpose();
+  }
   prior.begin_information = inverted<6>(covariance);
   return prior;
 }
 
 SweepMatch
-SweepTracker::Track::match(const Current& now,
+SweepTracker::Track::match(const LocalMap& map,
+                           const Current& now,
                            const SweepPrior& prior,
                            double gate) const
 {
@@ -133,7 +139,7 @@ SweepTracker::Track::match(const Current& now,
   options.noise = noise_;
   options.correlation = correlation_;
   options.num_threads = options_.num_threads;
-  SweepMatch found = odometry::matchSweep(*map_, now.sample, prior, options);
+  SweepMatch found = odometry::matchSweep(map, now.sample, prior, options);
   if (!now.is_timed) { // half of the turn, on the mean over the sweep
     const double turn = distanceBetween(last_.begin, found.motion.begin).rotation;
     found.distortion = 0.5 * range_ * std::abs(turn - last_.velocity.tail<3>().norm());
@@ -262,6 +268,8 @@ SweepTracker::Track::bestMatch(const Current& now, const SweepPrior& prior) cons
   loose.translation = std::max(kDisconnecting * wider.translation, widest);
   loose.rotation = std::max(kDisconnecting * wider.rotation, widest / range_);
   loose.begin_information /= kDisconnecting * kDisconnecting;
+  loose.velocity_covariance.setZero();
+  loose.velocity_with_begin.setZero();
   attempt(loose);
   loose.motion.begin = exactlyRigid(now.is_timed ? last_.end() : last_.begin);
   if (prior.goes_on)
@@ -340,10 +348,19 @@ SweepTracker::Track::learn(const SweepPrior& prior, const SweepMatch& match)
   const auto mixed = [memory](double before, double now) {
     return memory * before + (1 - memory) * now;
   };
+  // A part of the change is the error of the velocity before.
+  const Twist known_sq = prior.velocity_covariance.diagonal();
+  const auto beyond = [](double change_sq, double explained_sq) {
+    return std::max(0.0, change_sq - explained_sq);
+  };
   translation_sq_ =
-      std::max(floor_sq, mixed(translation_sq_, change.head<3>().squaredNorm()));
-  rotation_sq_ = std::max(floor_sq / (range_ * range_),
-                          mixed(rotation_sq_, change.tail<3>().squaredNorm()));
+      std::max(floor_sq,
+               mixed(translation_sq_,
+                     beyond(change.head<3>().squaredNorm(), known_sq.head<3>().sum())));
+  rotation_sq_ =
+      std::max(floor_sq / (range_ * range_),
+               mixed(rotation_sq_,
+                     beyond(change.tail<3>().squaredNorm(), known_sq.tail<3>().sum())));
   usual_overlap_ = usual_overlap_ > 0
                        ? kMemory * usual_overlap_ + (1 - kMemory) * match.overlap
                        : match.overlap;

@@ -155,7 +155,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   for (const std::string& name : names)
     files.push_back(std::filesystem::path(name).filename().string());
   MapVerification map = MapVerifier(scans_, files, options).verify(poses);
-  boundPoses(poses, map, num_threads_);
+  boundPoses(poses, map, num_threads_, frames_);
   explainDoubts(results, map);
   return map;
 }

@@ -33,6 +33,13 @@ public:
     sharing_ = sharing;
   }
 
+  /** \param[in] frames DriveContext::frame of all scans */
+  void
+  setFrames(const std::vector<Eigen::Matrix<double, 6, 6>>& frames)
+  {
+    frames_ = frames;
+  }
+
   /** Adds the new scans. After an exception of the report, the next call continues.
    * \param[in] reduced, measured of all scans; reduced is kept by reference, measured is needed
    * only for scans owned by this process
@@ -89,6 +96,7 @@ private:
 
   unsigned int num_threads_;
   WorkSharing* sharing_ = nullptr;
+  std::vector<Eigen::Matrix<double, 6, 6>> frames_;
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals
   std::deque<VerifiedScan> scans_;
   std::vector<Verified> verified_; ///< the last time

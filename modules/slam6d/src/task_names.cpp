@@ -19,6 +19,9 @@ inputsOf(std::uint64_t before,
   sum.add(scan.initial_pose);
   if (drive.is_step_measured)
     sum.add(std::uint32_t{1});
+  if (!drive.frame.isZero(0))
+    for (Eigen::Index i = 0; i < drive.frame.size(); ++i)
+      sum.add(drive.frame.data()[i]);
   for (const PosedPoints& sweep : drive.submap) {
     sum.add(sweep.points);
     sum.add(sweep.pose);

@@ -3,6 +3,7 @@
 #include <pcl6d/common/decompositions.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/require.h>
+#include <pcl6d/common/rotation.h>
 #include <pcl6d/graph_relaxation/link_error.h>
 #include <pcl6d/graph_relaxation/pose_graph_optimizer.h>
 #include <pcl6d/registration/twist.h>
@@ -142,17 +143,35 @@ boundOf(const Matrix6& covariance)
   const double root = 1 - ninth + kNormalOf95 * std::sqrt(ninth);
   return std::sqrt(mean * root * root * root);
 }
+
+/** \return the covariance of a pose relative to the first scan that follows from the frames of both,
+ * in the scan's own axes */
+Matrix6
+ofFrames(const Eigen::Isometry3d& T_scan_first,
+         const Matrix6& first,
+         const Matrix6& scan)
+{
+  const Eigen::Matrix3d R = T_scan_first.linear();
+  Matrix6 moved = Matrix6::Zero();
+  moved << R, skew(T_scan_first.translation()) * R, Eigen::Matrix3d::Zero(), R;
+  return moved * first * moved.transpose() + scan;
+}
 } // namespace
 
 void
 boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
            MapVerification& map,
-           unsigned int num_threads)
+           unsigned int num_threads,
+           const std::vector<Matrix6>& frames)
 {
   require(T_world_scan.size() == map.scans.size(),
           "poses",
           T_world_scan.size(),
           "one per scan");
+  require(frames.empty() || frames.size() == map.scans.size(),
+          "frames",
+          frames.size(),
+          "one per scan, or none");
   for (ScanCheck& scan : map.scans) {
     scan.covariance.reset();
     scan.bound.reset();
@@ -182,6 +201,10 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
     const Twist way = smallMotion(T_world_scan[scans[v]].inverse() * best.poses[v]);
     ScanCheck& scan = map.scans[scans[v]];
     scan.covariance = excess * covariances[v] + way * way.transpose();
+    if (!frames.empty())
+      *scan.covariance += ofFrames(T_world_scan[scans[v]].inverse() * T_world_scan[0],
+                                   frames[0],
+                                   frames[scans[v]]);
     scan.bound = boundOf(*scan.covariance);
   }
 }

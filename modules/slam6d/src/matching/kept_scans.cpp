@@ -66,6 +66,7 @@ KeptScans::add(const Points& points, const std::string& name, const DriveContext
   unreduced_.push_back({points, is_own ? drive.submap : std::vector<PosedPoints>()});
   names_.push_back(name);
   are_steps_measured_.push_back(drive.is_step_measured);
+  frames_.push_back(drive.frame);
 }
 
 void
@@ -73,6 +74,7 @@ KeptScans::forget(std::size_t place)
 {
   names_.resize(place);
   are_steps_measured_.resize(place);
+  frames_.resize(place);
   if (reduced_.size() + unreduced_.size() > place)
     unreduced_.pop_back();
 }

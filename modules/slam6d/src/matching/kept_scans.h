@@ -101,6 +101,13 @@ public:
     return are_steps_measured_[place];
   }
 
+  /** \return DriveContext::frame of each scan */
+  const std::vector<Eigen::Matrix<double, 6, 6>>&
+  frames() const
+  {
+    return frames_;
+  }
+
   const std::vector<std::string>&
   names() const
   {
@@ -140,6 +147,7 @@ private:
   std::size_t revision_ = 0;
   std::vector<std::string> names_;
   std::vector<bool> are_steps_measured_;
+  std::vector<Eigen::Matrix<double, 6, 6>> frames_;
   std::deque<Waiting> unreduced_; ///< scans without parameters yet
   std::deque<IcpModel> reduced_;  ///< a deque: the matcher keeps references to elements
   std::deque<MeasuredScan> measured_; ///< emptied behind the scan before the next

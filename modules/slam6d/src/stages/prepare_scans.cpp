@@ -58,11 +58,12 @@ class PrepareScans : public Stage {
     prepareWaiting(state, report);
     if (options.verify || !options.control.points.empty() || options.leave_out_moving ||
         state.isWithoutSequence() || isRecovering(options))
-      state.verification.prepare(state.scans.reduced(),
-                                 state.scans.measured(),
-                                 state.map->matcher().modelOptions(true),
-                                 state.result.parameters.voxel.value,
-                                 report);
+      state.verification.setFrames(state.scans.frames());
+    state.verification.prepare(state.scans.reduced(),
+                               state.scans.measured(),
+                               state.map->matcher().modelOptions(true),
+                               state.result.parameters.voxel.value,
+                               report);
   }
 };
 } // namespace

@@ -48,6 +48,8 @@ struct TrackedSweep {
   /** T_world_sensor at times [s] since the stamp, from begin to end: the motion within the sweep;
    * empty where points have no times */
   Trajectory path;
+  bool is_uneven =
+      false; ///< changes of the velocity within the sweep were matched, too
   std::size_t segment = 0; ///< sweeps of one segment share a map
   std::size_t points = 0;  ///< finite points within the range gate
   std::size_t inliers = 0; ///< of the points compared with the map
@@ -117,8 +119,9 @@ public:
   track(const Sweep& sweep);
 
   /** \return the first sweeps of the current segment in order, without lost ones, as known so far.
-   * The second sweep tells the motion within the first. Where all points have times, the first ten
-   * sweeps are kept, and with the twentieth they are tracked again backward: the first one is then
+   * The second sweep tells the motion within the first. Where all points have times, the first
+   * twenty sweeps are kept. If each one jumps against the sweep before, the map is distorted: it is
+   * made anew, and all are matched again. Then the first ten are tracked backward: the first one is
    * corrected, and the others if their motion becomes more even. TrackedSweep::corrects_opening
    * tells of each change. A caller with absolute predictions moves all sweeps by the correction of the
    * first one */

@@ -34,6 +34,10 @@ struct DriveContext {
    * gated as scans are, and reduced together. Rays and the map are of the scan alone; of 2D scans,
    * dense as they are, only the scan counts */
   std::vector<PosedPoints> submap;
+  /** covariance of the frame of the scan against its points, for small motions (translation [m],
+   * rotation [rad]) in its own axes: the motion within the scan is not exactly known. Links match
+   * points, so they do not show it; bounds of positions contain it */
+  Eigen::Matrix<double, 6, 6> frame = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 /** \brief 6D SLAM as a class (book, chapter 6.1): scans and rough poses in, a consistent trajectory

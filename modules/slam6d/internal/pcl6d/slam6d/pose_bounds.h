@@ -20,15 +20,20 @@ namespace PCL6D_EXPORTS pcl6d {
  * covariance of a pose is taken from the optimum of this graph. It is multiplied by chi2 per
  * degree of freedom if cycles close worse than the links predict, and by the root of the links per
  * pose, because links of a scan share its errors. The squared shift from the pose to the optimum
- * is added.
+ * is added. Links measure the surfaces of two scans against each other. What the frame of a scan is
+ * off its own surfaces, no link shows: it is added for the scan and for the first one, whose
+ * rotation counts with the distance.
  * \param[in,out] map result of MapVerifier for these poses
+ * \param[in] frames covariance of the frame of each scan against its points, for small motions in
+ * its own axes (DriveContext); empty: zero
  * \param[in] num_threads 0: one per core; never changes the result
- * \throws BadArgument number of poses and of scans differ
+ * \throws BadArgument number of poses, of scans or of frames differ
  * \note Source: share/doc/trust.md \ingroup slam6d */
 void
 boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
            MapVerification& map,
-           unsigned int num_threads = 0);
+           unsigned int num_threads = 0,
+           const std::vector<Eigen::Matrix<double, 6, 6>>& frames = {});
 
 /** \brief The links of a verified map as measured relative poses, for an adjustment with further
  * observations. Each link measures the shift of its scans by their surfaces, with the covariance

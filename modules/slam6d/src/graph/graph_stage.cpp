@@ -109,7 +109,8 @@ GraphStage::evaluated(StageKind kind,
   stage.kind = kind;
   stage.agreement_before = agreement.total.before;
   stage.agreement_after = agreement.total.after;
-  stage.rejection = agreement.worse(counted);
+  stage.rejection = kind == StageKind::kRelaxation ? agreement.notBetter(counted)
+                                                   : agreement.worse(counted);
   return stage;
 }
 

@@ -133,7 +133,8 @@ TEST(ScanNetwork, ALinkHasMorePairsWhereLinksAreFew)
   EXPECT_EQ(pairsOfLink(65, 30), 34u) << "every third of 100 points is nearest to 30";
   EXPECT_EQ(pairsOfLink(2, 30), 100u) << "all points: one link, not 64";
   EXPECT_EQ(pairsOfLink(2, 1), 50u) << "64 wanted: every second point";
-  EXPECT_EQ(pairsOfLink(9, 2), 17u) << "36 links, not 288: 16 wanted, every sixth point";
+  EXPECT_EQ(pairsOfLink(9, 2), 17u)
+      << "36 links, not 288: 16 wanted, every sixth point";
 }
 
 TEST(ScanNetwork, LeavesOutScansThatAreNotUsable)

@@ -168,7 +168,9 @@ printLeftOut(const std::vector<EvaluatedLink>& all,
   const auto isGood = [&](const EvaluatedLink& l) {
     return elsewhereBy(fit, l) < 0.01 && l.evidence.sight.patches >= 30;
   };
-  const auto isDoubted = [&](const EvaluatedLink& l) { return elsewhereBy(fit, l) > 0.9; };
+  const auto isDoubted = [&](const EvaluatedLink& l) {
+    return elsewhereBy(fit, l) > 0.9;
+  };
   const auto overlap = [](const EvaluatedLink& l) { return l.evidence.fit.overlap; };
   const auto rms = [](const EvaluatedLink& l) {
     return -l.evidence.fit.residual / l.evidence.voxel;

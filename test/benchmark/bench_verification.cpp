@@ -65,7 +65,7 @@ run(const std::vector<std::string>& arguments)
       << "set,kind,first,second,off,turn,voxel,noise,confirmed,free,points,patches,"
          "contradicted,overlap,residual,displacement,deviation,mahalanobis_sq,open,"
          "spread,pairs,ms,background,wrong,trust\n";
-  std::vector<TestedLink> evaluated;
+  std::vector<EvaluatedLink> evaluated;
   for (const std::string& argument : arguments) {
     const auto equals = argument.find('=');
     if (equals != std::string::npos) {

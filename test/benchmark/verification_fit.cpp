@@ -10,23 +10,23 @@
 namespace pcl6d::bench {
 
 namespace {
-using Links = std::vector<const TestedLink*>;
+using Links = std::vector<const EvaluatedLink*>;
 
 bool
-isRight(const TestedLink& link)
+isRight(const EvaluatedLink& link)
 {
   return link.kind == "right" || link.kind == "truth";
 }
 
 bool
-isElsewhere(const TestedLink& link)
+isElsewhere(const EvaluatedLink& link)
 {
   return link.kind == "minimum" || link.kind == "fold" || link.kind == "apart";
 }
 
 /** \return whether it is a known shift or turn that must be noticed */
 bool
-isShifted(const TestedLink& link)
+isShifted(const EvaluatedLink& link)
 {
   constexpr double kLeast = 0.05; // [m]
   const double way =
@@ -36,31 +36,31 @@ isShifted(const TestedLink& link)
 }
 
 std::vector<std::string>
-setsOf(const std::vector<TestedLink>& links)
+setsOf(const std::vector<EvaluatedLink>& links)
 {
   std::vector<std::string> sets;
-  for (const TestedLink& link : links)
+  for (const EvaluatedLink& link : links)
     if (std::find(sets.begin(), sets.end(), link.set) == sets.end())
       sets.push_back(link.set);
   return sets;
 }
 
 Links
-linksWhere(const std::vector<TestedLink>& links,
-           const std::function<bool(const TestedLink&)>& holds)
+linksWhere(const std::vector<EvaluatedLink>& links,
+           const std::function<bool(const EvaluatedLink&)>& holds)
 {
   Links found;
-  for (const TestedLink& link : links)
+  for (const EvaluatedLink& link : links)
     if (holds(link))
       found.push_back(&link);
   return found;
 }
 
 std::size_t
-countOf(const Links& links, const std::function<bool(const TestedLink&)>& holds)
+countOf(const Links& links, const std::function<bool(const EvaluatedLink&)>& holds)
 {
   return static_cast<std::size_t>(
-      std::count_if(links.begin(), links.end(), [&](const TestedLink* link) {
+      std::count_if(links.begin(), links.end(), [&](const EvaluatedLink* link) {
         return holds(*link);
       }));
 }
@@ -72,7 +72,7 @@ struct ContradictionFit {
 };
 
 double
-shareOf(const TestedLink& link)
+shareOf(const EvaluatedLink& link)
 {
   const SightEvidence& sight = link.evidence.sight;
   return static_cast<double>(sight.contradicted_patches) /
@@ -85,7 +85,7 @@ fitOf(const Links& links)
 {
   constexpr std::size_t kTelling = 30; // patches
   double right = 0, wrong = 0, wrong_sq = 0, num_right = 0, num_wrong = 0;
-  for (const TestedLink* link : links) {
+  for (const EvaluatedLink* link : links) {
     if (link->evidence.sight.patches < kTelling)
       continue;
     const double share = shareOf(*link);
@@ -121,7 +121,7 @@ logBetaBinomial(double k, double n, double a, double b)
 
 /** \return the probability that a link belongs elsewhere, by a fit */
 double
-elsewhereBy(const ContradictionFit& fit, const TestedLink& link)
+elsewhereBy(const ContradictionFit& fit, const EvaluatedLink& link)
 {
   constexpr double kPrecision = 40, kPriorOdds = 0.1; // as calibration.h
   const auto n = static_cast<double>(link.evidence.sight.patches);
@@ -136,10 +136,10 @@ elsewhereBy(const ContradictionFit& fit, const TestedLink& link)
 
 /** \return the limit of a score (more is better) that doubts 3 % of right links */
 double
-limitOf(const Links& links, const std::function<double(const TestedLink&)>& score)
+limitOf(const Links& links, const std::function<double(const EvaluatedLink&)>& score)
 {
   std::vector<double> scores;
-  for (const TestedLink* link : links)
+  for (const EvaluatedLink* link : links)
     if (isRight(*link))
       scores.push_back(score(*link));
   if (scores.empty())
@@ -155,7 +155,7 @@ ratio(std::size_t count, std::size_t of)
 }
 
 void
-printLeftOut(const std::vector<TestedLink>& all,
+printLeftOut(const std::vector<EvaluatedLink>& all,
              const std::string& set,
              std::ostream& out)
 {
@@ -165,12 +165,14 @@ printLeftOut(const std::vector<TestedLink>& all,
   const Links wrong =
       linksWhere(all, [&](const auto& l) { return l.set == set && isElsewhere(l); });
   const ContradictionFit fit = fitOf(others);
-  const auto isGood = [&](const TestedLink& l) {
+  const auto isGood = [&](const EvaluatedLink& l) {
     return elsewhereBy(fit, l) < 0.01 && l.evidence.sight.patches >= 30;
   };
-  const auto isDoubted = [&](const TestedLink& l) { return elsewhereBy(fit, l) > 0.9; };
-  const auto overlap = [](const TestedLink& l) { return l.evidence.fit.overlap; };
-  const auto rms = [](const TestedLink& l) {
+  const auto isDoubted = [&](const EvaluatedLink& l) {
+    return elsewhereBy(fit, l) > 0.9;
+  };
+  const auto overlap = [](const EvaluatedLink& l) { return l.evidence.fit.overlap; };
+  const auto rms = [](const EvaluatedLink& l) {
     return -l.evidence.fit.residual / l.evidence.voxel;
   };
   const double least = limitOf(others, overlap), most = limitOf(others, rms);
@@ -184,7 +186,7 @@ printLeftOut(const std::vector<TestedLink>& all,
 } // namespace
 
 void
-printVerdicts(const std::vector<TestedLink>& links, std::ostream& out)
+printVerdicts(const std::vector<EvaluatedLink>& links, std::ostream& out)
 {
   out << "| set | right: good / weak / wrong | other places: good / of | wrong shifts "
          "and "
@@ -194,7 +196,7 @@ printVerdicts(const std::vector<TestedLink>& links, std::ostream& out)
       return linksWhere(links, [&](const auto& l) { return l.set == set && holds(l); });
     };
     const auto with = [](LinkTrust trust) {
-      return [trust](const TestedLink& l) { return l.trust == trust; };
+      return [trust](const EvaluatedLink& l) { return l.trust == trust; };
     };
     const Links right = of(isRight), wrong = of(isElsewhere), shifted = of(isShifted);
     const std::size_t good = countOf(right, with(LinkTrust::kGood));
@@ -207,7 +209,7 @@ printVerdicts(const std::vector<TestedLink>& links, std::ostream& out)
 }
 
 void
-printLeaveOneOut(const std::vector<TestedLink>& links, std::ostream& out)
+printLeaveOneOut(const std::vector<EvaluatedLink>& links, std::ostream& out)
 {
   const std::vector<std::string> sets = setsOf(links);
   if (sets.size() < 2)

@@ -108,22 +108,17 @@ normOf(Metric metric,
   return normal_a * normal_a.transpose();
 }
 
-/** Links per scan with exactly points_per_link points each. Fewer links have more points each, so
- * that the number of pairs of a scan does not depend on its number of links: matching pairs all
- * points, and poses from a few hundred of them are less accurate than the matched poses. */
+/** Average number of links per scan with the full number of points; more links use fewer points
+ * each. */
 constexpr std::size_t kLinksPerScan = 32;
-
-/** Most points for which links get more than points_per_link: their pairs take 100 MB. */
-constexpr std::size_t kPairedOfAll = 1000000;
 
 /** Least points of a link: with fewer, links lack the pairs needed by relaxation. */
 constexpr std::size_t kLeastPoints = 200;
 
-/** \return the step through the points of a scan that comes nearest to the wanted number */
 std::size_t
 strideFor(std::size_t points, std::size_t wanted)
 {
-  return std::max<std::size_t>(1, (points + wanted / 2) / wanted);
+  return std::max<std::size_t>(1, (points + wanted - 1) / wanted);
 }
 
 constexpr Named<LinkRule> kRules[] = {{LinkRule::kOverlap, "overlap"},
@@ -253,12 +248,11 @@ ScanNetwork::choose(const Poses& poses)
 std::size_t
 ScanNetwork::pointsPerLink() const
 {
-  const std::size_t links = std::max<std::size_t>(1, chosen_.size());
-  const std::size_t usual = options_.points_per_link;
-  const std::size_t of_all = usual * kLinksPerScan * scans_.size();
-  if (links > kLinksPerScan * scans_.size())
-    return std::max(std::min(kLeastPoints, usual), of_all / links);
-  return std::max(usual, std::min(of_all, kPairedOfAll) / links);
+  const std::size_t full = kLinksPerScan * scans_.size();
+  if (chosen_.size() <= full)
+    return options_.points_per_link;
+  return std::max(std::min(kLeastPoints, options_.points_per_link),
+                  options_.points_per_link * full / chosen_.size());
 }
 
 LinkPairs

@@ -38,9 +38,8 @@ struct ScanNetworkOptions {
   double link_distance = 7.5; ///< [m] of kDistance: between the positions; > 0
   double hysteresis = 0.1;    ///< share by which a link may miss its
                               ///< threshold before being dropped; in [0, 1)
-  /** number of paired points of a scan at 32 links per scan on average; > 0. With more links, each
-   * has fewer points, down to 200, as further pairs are redundant; with fewer links, each has more,
-   * as the pose of a scan depends on the pairs of all its links. */
+  /** number of paired points of a scan; > 0. With more than 32 links per scan on average, each
+   * link has fewer points, down to 200, as further pairs are redundant. */
   std::size_t points_per_link = 600;
   Metric metric = Metric::kPoint; ///< how the pairs are to be weighed
   double gicp_epsilon = 0.1;      ///< as IcpOptions::gicp_epsilon; in (0, 1]

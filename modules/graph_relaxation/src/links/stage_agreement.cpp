@@ -313,15 +313,6 @@ StageAgreement::worse(const std::vector<bool>& counted) const
   return {};
 }
 
-Rejection
-StageAgreement::notBetter(const std::vector<bool>& counted) const
-{
-  Rejection reason = worse(counted);
-  if (!reason && total.after < total.before)
-    reason = lossOf(RejectReason::kAgreementLost, total);
-  return reason;
-}
-
 StageAgreement
 compareStage(const std::vector<NetworkScan>& scans,
              const Poses& before,

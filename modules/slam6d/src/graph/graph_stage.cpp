@@ -109,8 +109,7 @@ GraphStage::evaluated(StageKind kind,
   stage.kind = kind;
   stage.agreement_before = agreement.total.before;
   stage.agreement_after = agreement.total.after;
-  stage.rejection = kind == StageKind::kRelaxation ? agreement.notBetter(counted)
-                                                   : agreement.worse(counted);
+  stage.rejection = agreement.worse(counted);
   return stage;
 }
 
@@ -302,8 +301,8 @@ GraphStage::relax(Slam6DResult& result, int rounds, const Observer& observer)
   StageResult stage =
       evaluated(StageKind::kRelaxation, before, relaxed.poses, areRegistered(result));
   stage.rounds = relaxed.iterations;
-  if (const Rejection reason = whyNotTaken(relaxed)) // says more than a lower agreement
-    stage.rejection = reason;
+  if (!stage.rejection)
+    stage.rejection = whyNotTaken(relaxed);
   history.push_back(relaxed.poses);
   stage.history.assign(history.begin() + 1, history.end()); // without the start
   const bool taken = conclude(stage, start, relaxed.poses, result);

@@ -63,12 +63,6 @@ struct StageAgreement {
    * tested) and by a tenth (its index is named); empty: not worse */
   Rejection
   worse(const std::vector<bool>& counted = {}) const;
-
-  /** For a stage whose input is as accurate as its result may be, such as relaxation of matched
-   * scans: of two maps the one with the larger agreement is the more likely one.
-   * \return worse(), or a fall of the total by any amount; empty: not worse at all */
-  Rejection
-  notBetter(const std::vector<bool>& counted = {}) const;
 };
 
 /** \brief Tests a stage by the poses before and after.

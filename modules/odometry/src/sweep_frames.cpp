@@ -18,6 +18,9 @@ constexpr std::size_t kSweepsAround =
  * much where no sweep before holds the begin. */
 constexpr double kBend = 0.125, kBendAtFirst = 0.25;
 
+/** [durations of a sweep] From begin to begin: one sweep may be left out in between. */
+constexpr double kLongestWay = 2.5;
+
 double
 durationOf(const SweepEnds& sweep)
 {
@@ -31,13 +34,21 @@ velocityOf(const SweepEnds& sweep)
   return twistFromMotion(sweep.T_world_begin.inverse() * sweep.T_world_end);
 }
 
+/** \return the motion during another sweep, at the velocity of this sweep: the last sweep of a
+ * recording may be cut off */
+Twist
+velocityDuring(const SweepEnds& other, const SweepEnds& sweep)
+{
+  return durationOf(other) / durationOf(sweep) * velocityOf(sweep);
+}
+
 /** \return whether a sweep begins where the sweep before ended, but for a short pause */
 bool
 goesOn(const SweepEnds& before, const SweepEnds& sweep)
 {
   const double from = before.stamp + before.begin, to = sweep.stamp + sweep.begin;
   return sweep.follows && durationOf(before) > 0 && durationOf(sweep) > 0 &&
-         to > from && to - from < 2 * durationOf(before);
+         to > from && to - from < kLongestWay * durationOf(before);
 }
 
 /** \return the motion from the end of a sweep to the begin of the next, beyond the pause */
@@ -64,8 +75,9 @@ frameCovariances(const std::vector<SweepEnds>& sweeps)
     if (goes_on[i])
       jumps[i] = jumpOf(sweeps[i - 1], sweeps[i]);
     if (i > 1 && goes_on[i] && goes_on[i - 1])
-      bends[i - 1] = velocityOf(sweeps[i - 2]) - 2 * velocityOf(sweeps[i - 1]) +
-                     velocityOf(sweeps[i]);
+      bends[i - 1] = velocityDuring(sweeps[i - 1], sweeps[i - 2]) -
+                     2 * velocityOf(sweeps[i - 1]) +
+                     velocityDuring(sweeps[i - 1], sweeps[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (!(durationOf(sweeps[i]) > 0))

@@ -208,7 +208,9 @@ SweepTracker::Track::commonJump(const OpeningSweeps& sweeps) const
   return lengthOf(mean) > std::max(kSettled * noise_, explained) ? mean : Twist::Zero();
 }
 
-/** \param[in,out] sweep with its motion \return whether the sweep matches the map */
+/** Matches a sweep from its own motion. The change of the velocity within stays: matching would tell
+ * it from its start, here no velocity of the sweep before.
+ * \param[in,out] sweep with its motion \return whether the sweep matches the map */
 bool
 SweepTracker::Track::matchAgain(const LocalMap& map, OpeningSweep& sweep) const
 {
@@ -229,6 +231,7 @@ SweepTracker::Track::matchAgain(const LocalMap& map, OpeningSweep& sweep) const
   if (!isMatched(found))
     return false;
   sweep.motion = found.motion;
+  sweep.motion.change = prior.motion.change;
   sweep.covariance = found.covariance;
   sweep.centre = prior.centre;
   return true;
@@ -307,7 +310,8 @@ SweepTracker::Track::matchOpening(const OpeningSweeps& behind,
   for (OpeningSweep& sweep : rest) {
     sweep.motion.change.setZero(); // told by the distorted map
     sweep.motion.offsets.clear();
-    if (!matchAgain(map, sweep))
+    // The second time from the right velocity: the first match took its change for a bend.
+    if (!matchAgain(map, sweep) || !matchAgain(map, sweep))
       return false;
   }
   OpeningSweeps all = rest;

@@ -52,6 +52,8 @@ SlamRun::addScan(const Points& points,
     throw BadArgument(name + ": the initial pose is not a rigid motion");
   if (!isPlace(scan.T_world_scan.translation())) // near the initial pose
     throw BadArgument(name + ": the pose lies 1e9 m or farther from the origin");
+  if (!drive.frame.allFinite())
+    throw BadArgument(name + ": the covariance of the frame is infinite or NaN");
   scan.points = finite;
   scans.push_back(scan);
   if (scan.state == ScanState::kPending)

@@ -158,6 +158,24 @@ ofFrames(const Eigen::Isometry3d& T_scan_first,
 }
 } // namespace
 
+namespace {
+/** Forgets the bounds of all scans; that of the first one is zero.
+ * \return whether scans are connected to the first one */
+bool
+beginBounds(MapVerification& map)
+{
+  for (ScanCheck& scan : map.scans) {
+    scan.covariance.reset();
+    scan.bound.reset();
+  }
+  if (map.scans.empty() || !map.scans[0].tied)
+    return false;
+  map.scans[0].covariance = Matrix6::Zero();
+  map.scans[0].bound = 0;
+  return true;
+}
+} // namespace
+
 void
 boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
            MapVerification& map,
@@ -172,16 +190,10 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
           "frames",
           frames.size(),
           "one per scan, or none");
-  for (ScanCheck& scan : map.scans) {
-    scan.covariance.reset();
-    scan.bound.reset();
-  }
-  if (map.scans.empty() || !map.scans[0].tied)
+  if (!beginBounds(map))
     return;
   std::vector<std::size_t> scans;
   PoseGraph graph = graphOf(T_world_scan, map, scans);
-  map.scans[0].covariance = Matrix6::Zero();
-  map.scans[0].bound = 0;
   if (scans.size() < 2)
     return;
   PoseGraphOptions options;

@@ -73,7 +73,8 @@ public:
   /** \return whether a match moved the scan by less than the pair distance, and hardly turned it
    * \param[in] predicted T_world_scan */
   bool
-  isWithinPairDistance(const ScanResult& scan, const Eigen::Isometry3d& predicted) const;
+  isWithinPairDistance(const ScanResult& scan,
+                       const Eigen::Isometry3d& predicted) const;
 
   /** \brief Adds an already registered scan, at the pose of its result.
    * \param[in] points, measured kept by reference, like in match() */

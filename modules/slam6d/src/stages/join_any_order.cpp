@@ -28,6 +28,7 @@ class JoinAnyOrder : public Stage {
     state.keepInPlane();
     auto& groups = state.groups; // a single world
     groups.assign(groups.size(), groups.empty() ? 0 : groups.front());
+    state.pieces.clear(); // all have a place in the result
     state.next = state.improved = state.size();
     context.observe(state.result);
   }

@@ -57,13 +57,14 @@ class PrepareScans : public Stage {
       options.initial_guess = InitialGuess::kOdometry;
     prepareWaiting(state, report);
     if (options.verify || !options.control.points.empty() || options.leave_out_moving ||
-        state.isWithoutSequence() || isRecovering(options))
+        state.isWithoutSequence() || isRecovering(options)) {
       state.verification.setFrames(state.scans.frames());
-    state.verification.prepare(state.scans.reduced(),
-                               state.scans.measured(),
-                               state.map->matcher().modelOptions(true),
-                               state.result.parameters.voxel.value,
-                               report);
+      state.verification.prepare(state.scans.reduced(),
+                                 state.scans.measured(),
+                                 state.map->matcher().modelOptions(true),
+                                 state.result.parameters.voxel.value,
+                                 report);
+    }
   }
 };
 } // namespace

@@ -48,8 +48,6 @@ struct TrackedSweep {
   /** T_world_sensor at times [s] since the stamp, from begin to end: the motion within the sweep;
    * empty where points have no times */
   Trajectory path;
-  bool is_uneven =
-      false; ///< changes of the velocity within the sweep were matched, too
   std::size_t segment = 0; ///< sweeps of one segment share a map
   std::size_t points = 0;  ///< finite points within the range gate
   std::size_t inliers = 0; ///< of the points compared with the map
@@ -66,6 +64,8 @@ struct TrackedSweep {
   bool corrects_opening = false; ///< SweepTracker::openingOfSegment() has changed
   bool is_keyframe = false;      ///< much of the sweep is new; the keyframes
                                  ///< together cover the map
+  bool is_uneven =
+      false; ///< changes of the velocity within the sweep were matched, too
 };
 
 /** \brief Knobs of SweepTracker. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keyframes of a drive: the points of the sweeps around a scan help to match it.
+// Keyframes of a drive: the points of the sweeps around a scan help to match it, and their tracked
+// motion confirms the match.
+#include "registered_run.h"
 #include "support/room.h"
 
 #include <pcl6d/common/pose.h>
@@ -71,7 +73,42 @@ errorOfHeight(bool has_around)
   return std::abs(slam.result().scans[1].T_world_scan.translation().z() -
                   second.translation().z());
 }
+
+/** \return how many of six scans in a room are registered. From the fourth scan on, 12 people stand
+ * around the scanner, in each scan elsewhere. \param[in] is_tracked the sweeps in between were tracked */
+int
+registeredAmongPeople(bool is_tracked)
+{
+  Random random(3);
+  Slam6D slam;
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Isometry3d pose = pcl6d::planarPose(-1.5 + 0.3 * i, 0, 0.05 * i);
+    PillarRoom room;
+    for (int k = 0; k < (i < 3 ? 0 : 12); ++k) {
+      const double turn = random.uniform(-M_PI, M_PI), away = random.uniform(1.2, 3);
+      const Eigen::Vector3d at =
+          pose * Eigen::Vector3d(away * std::cos(turn), away * std::sin(turn), 0);
+      room.pillars.emplace_back(at + Eigen::Vector3d(-0.3, -0.3, -1),
+                                at + Eigen::Vector3d(0.3, 0.3, 0.8));
+    }
+    slam.addScan(room.scan(pose, random, 0.03),
+                 pcl6d::planarPose(-1.5 + 0.31 * i, 0, 0.05 * i),
+                 "",
+                 pcl6d::test::measuredStep(is_tracked));
+  }
+  slam.optimize();
+  int count = 0;
+  for (const auto& scan : slam.result().scans)
+    count += scan.state != pcl6d::ScanState::kPredicted;
+  return count;
+}
 } // namespace
+
+TEST(Keyframes, ThatStayWhereTheyWereTrackedAreRegisteredAmongPeople)
+{
+  EXPECT_EQ(registeredAmongPeople(true), 6);
+  EXPECT_LT(registeredAmongPeople(false), 6);
+}
 
 TEST(Submap, TellsTheHeightThatTheScanAloneLeavesOpen)
 {

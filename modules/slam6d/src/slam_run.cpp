@@ -53,7 +53,7 @@ SlamRun::addScan(const Points& points,
   if (!isPlace(scan.T_world_scan.translation())) // near the initial pose
     throw BadArgument(name + ": the pose lies 1e9 m or farther from the origin");
   if (!drive.frame.allFinite())
-    throw BadArgument(name + ": the covariance of the frame is infinite or NaN");
+    throw BadArgument(name + ": the covariance of the frame is not finite");
   scan.points = finite;
   scans.push_back(scan);
   if (scan.state == ScanState::kPending)

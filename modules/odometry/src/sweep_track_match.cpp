@@ -350,18 +350,19 @@ SweepTracker::Track::learn(const SweepPrior& prior, const SweepMatch& match)
   const auto mixed = [memory](double before, double now) {
     return memory * before + (1 - memory) * now;
   };
-  // A part of the change is the error of the velocity before, along each axis.
-  const Eigen::Matrix3d R = prior.motion.begin.linear(); // from world axes
-  Twist known_sq;
-  known_sq << (R.transpose() * prior.velocity_covariance.topLeftCorner<3, 3>() * R)
-                  .diagonal(),
-      (R.transpose() * prior.velocity_covariance.bottomRightCorner<3, 3>() * R)
-          .diagonal();
-  const Twist beyond_sq = (change.cwiseAbs2() - known_sq).cwiseMax(0.0);
+  // A part of the change is the error of the velocity before.
+  const Twist known_sq = prior.velocity_covariance.diagonal();
+  const auto beyond = [](double change_sq, double explained_sq) {
+    return std::max(0.0, change_sq - explained_sq);
+  };
   translation_sq_ =
-      std::max(floor_sq, mixed(translation_sq_, beyond_sq.head<3>().sum()));
-  rotation_sq_ = std::max(floor_sq / (range_ * range_),
-                          mixed(rotation_sq_, beyond_sq.tail<3>().sum()));
+      std::max(floor_sq,
+               mixed(translation_sq_,
+                     beyond(change.head<3>().squaredNorm(), known_sq.head<3>().sum())));
+  rotation_sq_ =
+      std::max(floor_sq / (range_ * range_),
+               mixed(rotation_sq_,
+                     beyond(change.tail<3>().squaredNorm(), known_sq.tail<3>().sum())));
   usual_overlap_ = usual_overlap_ > 0
                        ? kMemory * usual_overlap_ + (1 - kMemory) * match.overlap
                        : match.overlap;

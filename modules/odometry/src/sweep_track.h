@@ -15,9 +15,7 @@ namespace pcl6d {
 namespace odometry {
 /** A sweep with fewer points has no shape to be matched by. */
 inline constexpr std::size_t kLeastSweepPoints = 100;
-} // namespace odometry
 
-namespace odometry {
 /** The gate, in standard deviations of the predictions (KISS-ICP). */
 inline constexpr double kGateDeviations = 3;
 } // namespace odometry

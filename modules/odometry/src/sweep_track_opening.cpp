@@ -244,7 +244,7 @@ SweepTracker::Track::matchAgain(const LocalMap& map, OpeningSweep& sweep) const
 bool
 SweepTracker::Track::straighten(OpeningSweeps& sweeps) const
 {
-  constexpr int kRounds = 4; // each one halves the jump at least
+  constexpr int kRounds = 4; // one to three sufficed in simulated drives
   OpeningSweeps straight = sweeps;
   bool is_changed = false;
   for (int round = 0; round < kRounds; ++round) {

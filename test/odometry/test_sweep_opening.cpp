@@ -39,7 +39,8 @@ TEST(SweepTracker, ADriveMayBeginInATurn)
   EXPECT_EQ(opening[0].status, SweepStatus::kFirst);
   EXPECT_TRUE(opening[0].is_keyframe);
   EXPECT_EQ(opening[9].status, SweepStatus::kTracked);
-  const Eigen::Isometry3d truth = poseInTurn(0).inverse() * poseInTurn(kSweepTime * (kCount - 1));
+  const Eigen::Isometry3d truth =
+      poseInTurn(0).inverse() * poseInTurn(kSweepTime * (kCount - 1));
   const auto error =
       distanceBetween(truth, opening[0].T_world_sweep.inverse() * last.T_world_sweep);
   EXPECT_LT(error.rotation, 0.01);
@@ -59,9 +60,8 @@ TEST(SweepTracker, ADistortedMapIsMadeAnew)
   ASSERT_EQ(opening.size(), 20U);
   double turn = 0; // mean error of the turns within the sweeps behind the first ten
   for (int i = 10; i < kCount; ++i) {
-    const Eigen::Isometry3d truth =
-        poseInTurn(kSweepTime * i).inverse() *
-        poseInTurn(kSweepTime * (i + 1) - kSweepTime / 300);
+    const Eigen::Isometry3d truth = poseInTurn(kSweepTime * i).inverse() *
+                                    poseInTurn(kSweepTime * (i + 1) - kSweepTime / 300);
     const auto& sweep = opening[static_cast<std::size_t>(i)];
     const Eigen::Isometry3d error =
         truth.inverse() * sweep.T_world_begin.inverse() * sweep.T_world_end;

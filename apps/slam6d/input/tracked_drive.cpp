@@ -126,8 +126,7 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
                    found.begin,
                    found.end,
                    stamp,
-                   found.status == SweepStatus::kTracked,
-                   found.is_uneven});
+                   found.status == SweepStatus::kTracked});
   are_measured_.push_back(found.status == SweepStatus::kTracked && !is_open_);
   num_lost_ += is_lost_ ? 1 : 0;
   if (found.corrects_opening)
@@ -165,7 +164,6 @@ TrackedDrive::correctOpening()
     paths_[opening_[k]] = pathWithStamp(opening[k]);
     ends_[opening_[k]].T_world_begin = opening[k].T_world_begin;
     ends_[opening_[k]].T_world_end = opening[k].T_world_end;
-    ends_[opening_[k]].is_uneven = opening[k].is_uneven;
     submaps_.correct(opening_[k], opening[k]);
   }
 }

@@ -97,7 +97,7 @@ frameCovariances(const std::vector<SweepEnds>& sweeps)
       if (bends[k].squaredNorm() > bend.squaredNorm())
         bend = bends[k];
     const bool is_first = i == 0 || !sweeps[i].follows;
-    const double share = is_first && !sweeps[i].is_uneven ? kBendAtFirst : kBend;
+    const double share = is_first ? kBendAtFirst : kBend;
     covariances[i] += share * share * bend * bend.transpose();
     // The error grows from the middle to the ends, and beyond.
     const double away =

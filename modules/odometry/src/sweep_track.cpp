@@ -182,7 +182,6 @@ SweepTracker::Track::describe(const Current& now, const SweepMotion& motion) con
 {
   TrackedSweep found;
   found.segment = segment_;
-  found.is_uneven = !motion.offsets.empty();
   found.points = now.span.points.size();
   found.begin = now.span.begin;
   found.end = now.span.end;

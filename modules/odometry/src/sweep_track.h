@@ -100,6 +100,8 @@ private:
   trackBackward(const OpeningSweeps& behind, OpeningSweeps& first) const;
   bool
   matchOpening(const OpeningSweeps& behind, OpeningSweeps& first) const;
+  void
+  matchFirstInParts(const OpeningSweeps& behind, OpeningSweeps& opening) const;
   LocalMap
   mapOf(const OpeningSweeps& sweeps) const;
   double

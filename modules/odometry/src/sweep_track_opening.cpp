@@ -128,7 +128,6 @@ SweepTracker::Track::correct(std::size_t number, TrackedSweep placed)
   known.T_world_begin = placed.T_world_begin;
   known.T_world_end = placed.T_world_end;
   known.path = std::move(placed.path);
-  known.is_uneven = placed.is_uneven;
   known.reduced = std::move(placed.reduced);
 }
 
@@ -323,10 +322,27 @@ SweepTracker::Track::matchOpening(const OpeningSweeps& behind,
   return true;
 }
 
+/** No sweep before holds the begin of the first one: its motion is matched in parts, with the learned
+ * deviation as random walk of the velocity, unless a sudden change was matched already.
+ * \param[in] behind the opening \param[in,out] opening unchanged if the first sweep does not match */
+void
+SweepTracker::Track::matchFirstInParts(const OpeningSweeps& behind,
+                                       OpeningSweeps& opening) const
+{
+  if (!opening.front().motion.offsets.empty())
+    return;
+  OpeningSweeps others(opening.begin() + 1, opening.end());
+  others.insert(others.end(), behind.begin(), behind.end());
+  OpeningSweep first = opening.front();
+  first.motion.offsets.resize(odometry::kSweepParts + 1, Twist::Zero());
+  if (matchAgain(mapOf(others), first))
+    opening.front() = std::move(first);
+}
+
 /** Only the motion to the second sweep told the motion within the first one, and both may differ: a
  * drive may begin in a turn. The next sweeps were matched with a distorted map. Those behind the
  * opening are straightened, and from their map the opening is tracked backward. The first sweep is
- * then known better. Of the others, the more even motion counts: errors of single sweeps look like
+ * then known better, and matched in parts. Of the others, the more even motion counts: errors of single sweeps look like
  * jerks. If the map was distorted, the forward motion counts only as the start of another match.
  * \return whether a sweep was corrected */
 bool
@@ -347,6 +363,7 @@ SweepTracker::Track::improveOpening(OpeningSweeps sweeps)
     sweeps = std::move(backward);
   else if (!is_straightened)
     sweeps.front() = std::move(backward.front());
+  matchFirstInParts(behind, sweeps);
   const auto take = [this](const OpeningSweep& sweep, std::size_t number) {
     const Places places = reducedPlaces(sweep.now, sweep.motion);
     correct(number, placed(sweep.now, sweep.motion, places));

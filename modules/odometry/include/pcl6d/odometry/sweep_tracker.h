@@ -64,8 +64,6 @@ struct TrackedSweep {
   bool corrects_opening = false; ///< SweepTracker::openingOfSegment() has changed
   bool is_keyframe = false;      ///< much of the sweep is new; the keyframes
                                  ///< together cover the map
-  bool is_uneven =
-      false; ///< changes of the velocity within the sweep were matched, too
 };
 
 /** \brief Knobs of SweepTracker. */

@@ -17,7 +17,6 @@ struct SweepEnds {
   double begin = 0, end = 0; ///< [s] since the stamp: first and last time
   double stamp = 0;          ///< [s]
   bool follows = false;      ///< the sweep before was matched with the same map
-  bool is_uneven = false;    ///< TrackedSweep
 };
 
 /** \brief Uncertainty of the frames of sweeps against their own points, from the tracked motion.
@@ -28,7 +27,7 @@ struct SweepEnds {
  * errors are independent from sweep to sweep, the squared jump between two sweeps is 2 e^2; an error
  * that alternates shows no jump, but a second difference of the velocities of 8 e. A sudden change
  * of velocity D has a second difference of D, and its sagitta, not described by the motion, is D / 8;
- * twice as much at the begin of a map, which no sweep before holds, unless changes within were matched.
+ * twice as much at the begin of a map, which no sweep before holds.
  * Jumps are averaged over the five sweeps before and behind, since a distorted map makes all alike;
  * of the second differences, the largest of the sweep and its neighbours counts.
  * \return for each sweep the covariance of its frame, for small motions (translation [m], rotation

@@ -2,6 +2,7 @@
 #include "matching/agreement.h"
 #include "matching/balanced_match.h"
 #include "matching/open_directions.h"
+#include "matching/refined_match.h"
 #include "matching/scan_matcher.h"
 
 #include <pcl6d/common/pose.h>
@@ -179,6 +180,19 @@ ScanMatcher::isWithinPairDistance(const ScanResult& scan,
          scan.correction <= parameters_.max_distance.value;
 }
 
+IcpResult
+ScanMatcher::matchPoints(const IcpTarget& target,
+                         const IcpModel& points,
+                         const Eigen::Isometry3d& guess) const
+{
+  const IcpOptions options = icpOptions(points.points().size());
+  IcpResult found = icp(target, points.source(), guess, options);
+  if (areNormalsUncertain(parameters_.line_spacing.value, parameters_.voxel.value))
+    refineMatch(target, points.source(), options, found);
+  matchBalanced(target, points.source(), options, found);
+  return found;
+}
+
 void
 ScanMatcher::matchFrom(const StartingPose& start,
                        const IcpModel& points,
@@ -195,9 +209,7 @@ ScanMatcher::matchFrom(const StartingPose& start,
   guess.translation() -= origin;
   predicted.translation() -= origin;
   const IcpTarget target = metascan_.around(origin);
-  IcpResult found =
-      icp(target, points.source(), guess, icpOptions(points.points().size()));
-  matchBalanced(target, points.source(), icpOptions(points.points().size()), found);
+  IcpResult found = matchPoints(target, points, guess);
   const bool is_held = holds_open_directions_ && !isWithoutPrior(start.from) &&
                        holdOpenDirections(predicted, found);
   scan.status = found.status;

@@ -96,6 +96,11 @@ private:
     Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
   };
 
+  /** \return the match of a scan from a pose, refined and balanced where needed */
+  IcpResult
+  matchPoints(const IcpTarget& target,
+              const IcpModel& points,
+              const Eigen::Isometry3d& guess) const;
   void
   matchFrom(const StartingPose& start,
             const IcpModel& points,

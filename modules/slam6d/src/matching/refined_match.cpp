@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "matching/refined_match.h"
+
+#include <algorithm>
+
+namespace pcl6d::slam6d {
+
+namespace {
+/** Lines per voxel, at most, for a refinement. Voxels are 1.3 line spacings wide (kVoxelOfLines)
+ * where lines decide; 1.5 allows for given voxels. Denser lines have 2 and more. */
+constexpr double kMostLinesOfVoxel = 1.5;
+
+/** Most refined matches rest after 7 iterations. Some never do: the weights change while a pair at
+ * the largest distance comes and goes, and the pose moves by a thousandth of a voxel. */
+constexpr int kRefiningIterations = 20;
+
+/** \return whether no motion is open, and ICP has not failed */
+bool
+isFixed(const IcpResult& match)
+{
+  return (match.status == Status::kOk || match.status == Status::kMaxIterations) &&
+         match.localizability && match.localizability->openDirections() == 0;
+}
+} // namespace
+
+bool
+areNormalsUncertain(double line_spacing, double voxel)
+{
+  return kMostLinesOfVoxel * line_spacing >= voxel;
+}
+
+void
+refineMatch(const IcpTarget& target,
+            const IcpSource& source,
+            const IcpOptions& options,
+            IcpResult& found)
+{
+  if (options.metric != Metric::kGicp || options.robust != RobustKernel::kNone ||
+      found.status != Status::kOk || !isFixed(found))
+    return;
+  IcpOptions refining = options;
+  refining.gicp_epsilon = std::min(options.gicp_epsilon, IcpOptions().gicp_epsilon);
+  refining.robust = RobustKernel::kGemanMcClure;
+  refining.max_distance_start = 0;
+  refining.max_iterations = kRefiningIterations;
+  const IcpResult refined = icp(target, source, found.T_target_source, refining);
+  found.iterations += refined.iterations;
+  const Eigen::Vector3d& centroid = found.localizability->centroid;
+  const Eigen::Isometry3d motion =
+      refined.T_target_source * found.T_target_source.inverse();
+  if (isFixed(refined) && (motion * centroid - centroid).norm() <= options.max_distance)
+    found.T_target_source = refined.T_target_source;
+}
+
+} // namespace pcl6d::slam6d

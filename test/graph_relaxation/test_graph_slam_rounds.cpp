@@ -29,6 +29,40 @@ TEST(GraphSlam, SearchesPairsAnewEachRound)
   EXPECT_LT(result.rms, result.rms_before);
 }
 
+TEST(GraphSlam, EndsWithARoundOfOtherPairs)
+{
+  GraphRecipe recipe;
+  const GraphCase graph = makeGraph(recipe);
+  recipe.seed += 1; // other noise
+  const GraphCase other = makeGraph(recipe);
+  GraphSlamOptions options;
+  for (const int most : {50, 3, 1}) {
+    options.max_iterations = most;
+    int searches = 0, last_searches = 0;
+    const auto result = GraphSlam(options).relax(
+        graph.start,
+        [&](const Poses&) {
+          EXPECT_EQ(last_searches, 0) << "the other pairs come last";
+          ++searches;
+          return graph.links;
+        },
+        [&](const Poses&) {
+          ++last_searches;
+          return other.links;
+        });
+    EXPECT_EQ(last_searches, most > 1 ? 1 : 0);
+    EXPECT_EQ(searches + last_searches, result.iterations);
+    EXPECT_LE(result.iterations, most);
+    EXPECT_EQ(result.status, most == 50 ? Status::kOk : Status::kMaxIterations);
+    if (most == 50) {
+      const auto alone = GraphSlam(options).relax(graph.start, other.links);
+      for (std::size_t i = 0; i < alone.poses.size(); ++i)
+        EXPECT_LT(distanceBetween(alone.poses[i], result.poses[i]).translation, 1e-3);
+      EXPECT_NEAR(result.rms, alone.rms, 0.01 * alone.rms);
+    }
+  }
+}
+
 TEST(GraphSlam, StopsWhenItsObserverSaysSo)
 {
   const GraphCase graph = makeGraph({});

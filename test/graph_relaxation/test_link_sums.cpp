@@ -184,6 +184,36 @@ TEST(LinkSums, CountTheEquations)
   EXPECT_NEAR(sumLink(scans.pairs, scans.T_a, scans.T_b).equations, 30, 1e-9);
 }
 
+TEST(LinkSums, OfPairsThatRepeatEachOtherAreThoseOfOneOfThem)
+{
+  for (const bool norms : {false, true}) {
+    const TwoScans scans = twoScans(100, norms, 9);
+    LinkPairs three = scans.pairs;
+    three.redundancy = 3;
+    for (int copy = 0; copy < 2; ++copy) {
+      const LinkPairs& once = scans.pairs;
+      three.points_from.insert(
+          three.points_from.end(), once.points_from.begin(), once.points_from.end());
+      three.points_to.insert(
+          three.points_to.end(), once.points_to.begin(), once.points_to.end());
+      three.norms.insert(three.norms.end(), once.norms.begin(), once.norms.end());
+      three.weights.insert(
+          three.weights.end(), once.weights.begin(), once.weights.end());
+    }
+    const LinkSums one = sumLink(scans.pairs, scans.T_a, scans.T_b);
+    const LinkSums all = sumLink(three, scans.T_a, scans.T_b);
+    EXPECT_EQ(all.count, 3 * one.count);
+    EXPECT_NEAR(all.weight, one.weight, kSumTol);
+    EXPECT_NEAR(all.equations, one.equations, kSumTol);
+    EXPECT_LT((all.A - one.A).norm(), kSumTol);
+    EXPECT_LT((all.b - one.b).norm(), kSumTol);
+    EXPECT_LT((all.scatter - one.scatter).norm(), kSumTol);
+    EXPECT_LT((all.cross - one.cross).norm(), kSumTol);
+    EXPECT_LT((all.spread - one.spread).norm(), kSumTol);
+    EXPECT_NEAR(all.residual_sq, one.residual_sq, kSumTol);
+  }
+}
+
 TEST(LinkSums, OfNormsThatAreOneEqualThoseWithout)
 {
   TwoScans scans = twoScans(100, false, 6);

@@ -124,6 +124,28 @@ TEST(ScanNetwork, PairsPointsThatAreNearAtThePoses)
   EXPECT_EQ(fewer.pairs({shifted(0), shifted(0)})[0].points_to.size(), 25u);
 }
 
+TEST(ScanNetwork, LastRoundLooksAtAsManyPointsAsTheRoundsBefore)
+{
+  const Rows rows(2);
+  ScanNetworkOptions options;
+  options.points_per_link = 10;
+  const Poses poses{shifted(0), shifted(0)};
+  for (const auto& [rounds, points] : {std::pair(0, 10), {1, 10}, {3, 25}, {20, 100}}) {
+    ScanNetwork network(rows.scans, {true, true}, options);
+    for (int round = 0; round < rounds; ++round) {
+      const LinkPairs link = network.pairs(poses)[0];
+      EXPECT_EQ(link.points_to.size(), 10u);
+      EXPECT_EQ(link.redundancy, 1);
+    }
+    const LinkPairs link = network.pairsOfLastRound(poses)[0];
+    EXPECT_EQ(link.points_to.size(), static_cast<std::size_t>(points)) << rounds;
+    EXPECT_EQ(link.points_from.size(), link.points_to.size());
+    EXPECT_EQ(link.redundancy, points / 10.0)
+        << "counts as the pairs of a round before";
+    EXPECT_EQ(network.pairs(poses)[0].points_to.size(), 10u);
+  }
+}
+
 TEST(ScanNetwork, LeavesOutScansThatAreNotUsable)
 {
   const Rows rows(3);

@@ -135,6 +135,22 @@ TEST(Slam6DGraph, AStageThatIsUndoneLeavesThePosesBitForBit)
   pcl6d::test::expectSameBits(with, without);
 }
 
+TEST(Slam6DGraph, ARelaxationWithoutAClearGainIsReverted)
+{
+  // Each scan is matched with all scans before: little is left to gain.
+  const DriftingRun run = pcl6d::test::makeDriftingRun(4);
+  Slam6DOptions options = pairwise();
+  options.metascan = Slam6DOptions().metascan;
+  const Slam6DResult with = registered(run, options);
+  const StageResult* stage = stageOf(with, "relaxation");
+  ASSERT_NE(stage, nullptr);
+  EXPECT_GT(stage->agreement_after, stage->agreement_before) << "within chance";
+  EXPECT_TRUE(stage->reverted);
+  EXPECT_EQ(stage->rejection.reason, pcl6d::RejectReason::kNoClearGain);
+  for (std::size_t i = 0; i < run.scans.size(); ++i)
+    EXPECT_TRUE(sameBits(with.scans[i].T_world_scan, with.scans[i].matched_pose)) << i;
+}
+
 TEST(Slam6DGraph, AWrongGivenLinkHardlyMovesTheResult)
 {
   // Around a thin wall: the first and the last scan see its two sides, 0.1 m apart,

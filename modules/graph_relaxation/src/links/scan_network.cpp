@@ -115,6 +115,9 @@ constexpr std::size_t kLinksPerScan = 32;
 /** Least points of a link: with fewer, links lack the pairs needed by relaxation. */
 constexpr std::size_t kLeastPoints = 200;
 
+/** Most points of a last round: their pairs take 100 MB. */
+constexpr std::size_t kPointsOfLastRound = 1000000;
+
 std::size_t
 strideFor(std::size_t points, std::size_t wanted)
 {
@@ -154,6 +157,10 @@ ScanNetworkOptions::validate() const
   require(points_per_link > 0, "points_per_link", points_per_link, "> 0");
   require(
       gicp_epsilon > 0 && gicp_epsilon <= 1, "gicp_epsilon", gicp_epsilon, "in (0, 1]");
+  require(last_gicp_epsilon > 0 && last_gicp_epsilon <= 1,
+          "last_gicp_epsilon",
+          last_gicp_epsilon,
+          "in (0, 1]");
 }
 
 ScanNetwork::ScanNetwork(const std::vector<NetworkScan>& scans,
@@ -255,9 +262,16 @@ ScanNetwork::pointsPerLink() const
                   options_.points_per_link * full / chosen_.size());
 }
 
+std::size_t
+ScanNetwork::strideOf(const ScanPair& link, std::size_t points_per_link) const
+{
+  return strideFor(scans_[link.second].model().points().size(), points_per_link);
+}
+
 LinkPairs
 ScanNetwork::pairsOf(const ScanPair& link,
                      const Poses& poses,
+                     const Round& round,
                      std::vector<RememberedPartner>& remembered) const
 {
   const auto [a, b] = link;
@@ -266,17 +280,20 @@ ScanNetwork::pairsOf(const ScanPair& link,
   pairs.to = b;
   const auto kept = kept_.find(link);
   pairs.trusted = kept != kept_.end() && kept->second.trusted;
+  const std::size_t stride = strideOf(link, round.points_per_link);
+  const std::size_t usual = strideOf(link, pointsPerLink());
+  pairs.redundancy = static_cast<double>(usual) / static_cast<double>(stride);
   if (options_.sharing && !options_.sharing->owns(b))
     return pairs;
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const PartnerSearch partnerOf(
       scans_[a], scans_[b], poses[a].inverse() * poses[b], options_.max_distance);
-  const std::size_t stride = strideFor(to.points().size(), pointsPerLink());
-  const std::size_t looked_at = (to.points().size() + stride - 1) / stride;
+  const std::size_t looked_at = (to.points().size() + usual - 1) / usual;
   if (remembered.size() != looked_at) // different points
     remembered.assign(looked_at, {});
   for (std::size_t i = 0; i < to.points().size(); i += stride) {
-    const int partner = partnerOf(i, remembered[i / stride]);
+    const int partner =
+        stride == usual ? partnerOf(i, remembered[i / stride]) : partnerOf(i);
     if (partner < 0)
       continue;
     if (options_.metric != Metric::kPoint) {
@@ -285,7 +302,7 @@ ScanNetwork::pairsOf(const ScanPair& link,
       const Eigen::Vector3d m = poses[b].linear() * to.normals()[i].cast<double>();
       if (options_.metric == Metric::kPlane && n.isZero(0))
         continue;
-      pairs.norms.push_back(normOf(options_.metric, n, m, options_.gicp_epsilon));
+      pairs.norms.push_back(normOf(options_.metric, n, m, round.gicp_epsilon));
     }
     pairs.points_from.push_back(from.points()[partner]);
     pairs.points_to.push_back(to.points()[i]);
@@ -294,19 +311,39 @@ ScanNetwork::pairsOf(const ScanPair& link,
 }
 
 std::vector<LinkPairs>
-ScanNetwork::pairs(const Poses& poses)
+ScanNetwork::pairsOfAll(const Poses& poses, const Round& round)
 {
-  require(poses.size() == scans_.size(), "poses", poses.size(), "one per scan");
-  choose(poses);
   const std::vector<ScanPair> links(chosen_.begin(), chosen_.end());
   std::vector<std::vector<RememberedPartner>*> remembered;
   for (const ScanPair& link : links)
     remembered.push_back(&remembered_[link]);
   std::vector<LinkPairs> found(links.size());
   parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
-    found[k] = pairsOf(links[k], poses, *remembered[k]);
+    found[k] = pairsOf(links[k], poses, round, *remembered[k]);
   });
   return found;
+}
+
+std::vector<LinkPairs>
+ScanNetwork::pairs(const Poses& poses)
+{
+  require(poses.size() == scans_.size(), "poses", poses.size(), "one per scan");
+  choose(poses);
+  const std::size_t wanted = pointsPerLink();
+  for (const ScanPair& link : chosen_)
+    looked_at_ += scans_[link.second].model().points().size() / strideOf(link, wanted);
+  return pairsOfAll(poses, {wanted, options_.gicp_epsilon});
+}
+
+std::vector<LinkPairs>
+ScanNetwork::pairsOfLastRound(const Poses& poses)
+{
+  require(poses.size() == scans_.size(), "poses", poses.size(), "one per scan");
+  choose(poses);
+  const std::size_t links = std::max<std::size_t>(1, chosen_.size());
+  const std::size_t wanted = std::min(looked_at_, kPointsOfLastRound) / links;
+  return pairsOfAll(poses,
+                    {std::max(pointsPerLink(), wanted), options_.last_gicp_epsilon});
 }
 
 ScanLink
@@ -327,7 +364,7 @@ ScanNetwork::describeLink(const ScanPair& pair, const Poses& poses) const
   const IcpModel &from = scans_[a].model(), &to = scans_[b].model();
   const Eigen::Isometry3d T_a_b = poses[a].inverse() * poses[b];
   const PartnerSearch partnerOf(scans_[a], scans_[b], T_a_b, options_.max_distance);
-  const std::size_t stride = strideFor(to.points().size(), pointsPerLink());
+  const std::size_t stride = strideOf(pair, pointsPerLink());
   PlaneAccumulator planes;
   double sum_sq = 0;
   std::size_t looked = 0;

@@ -147,23 +147,30 @@ GraphSlam::relax(const Poses& poses, const std::vector<LinkPairs>& links) const
   const auto same = [&](const Poses&) -> const std::vector<LinkPairs>& {
     return links;
   };
-  return GraphSlamRun(options_, measured, observer_).run(poses, same);
+  return GraphSlamRun(options_, measured, observer_).run(poses, same, nullptr);
 }
 
 GraphSlamResult
-GraphSlam::relax(const Poses& poses, const PairSearch& search) const
+GraphSlam::relax(const Poses& poses,
+                 const PairSearch& search,
+                 const PairSearch& last) const
 {
   require(search != nullptr, "search", "none", "a function");
   requirePoses(poses);
   const std::vector<PoseLink> measured = checkedLinks(measured_, poses.size());
   std::vector<LinkPairs> links;
-  const auto searched = [&](const Poses& current) -> const std::vector<LinkPairs>& {
-    links = search(current);
-    for (const LinkPairs& link : links)
-      requireLink(link.from, link.to, poses.size());
-    return links;
+  const auto searchedBy = [&](const PairSearch& pairs) {
+    return [&](const Poses& current) -> const std::vector<LinkPairs>& {
+      links = pairs(current);
+      for (const LinkPairs& link : links)
+        requireLink(link.from, link.to, poses.size());
+      return links;
+    };
   };
-  return GraphSlamRun(options_, measured, observer_).run(poses, searched);
+  const GraphSlamRun::Pairs in_the_end =
+      last ? GraphSlamRun::Pairs(searchedBy(last)) : nullptr;
+  return GraphSlamRun(options_, measured, observer_)
+      .run(poses, searchedBy(search), in_the_end);
 }
 
 } // namespace pcl6d

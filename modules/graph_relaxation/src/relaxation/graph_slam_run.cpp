@@ -62,20 +62,24 @@ GraphSlamRun::GraphSlamRun(const GraphSlamOptions& options,
 }
 
 GraphSlamResult
-GraphSlamRun::run(const GraphSlam::Poses& start, const Pairs& pairs_at)
+GraphSlamRun::run(const GraphSlam::Poses& start,
+                  const Pairs& pairs_at,
+                  const Pairs& last_pairs_at)
 {
   round_.poses = start;
   const std::vector<LinkPairs>* pairs = nullptr;
-  for (int iteration = 1; iteration <= options_.max_iterations; ++iteration) {
+  const bool has_last = last_pairs_at && options_.max_iterations > 1;
+  const int rounds = options_.max_iterations - (has_last ? 1 : 0);
+  bool goes_on = true;
+  for (int iteration = 1; iteration <= rounds && goes_on; ++iteration) {
     pairs = &pairs_at(round_.poses);
-    measure(*pairs);
-    if (iteration == 1)
-      result_.rms_before = std::sqrt(error_);
-    if (round_.links.empty() || hasDiverged())
-      break;
-    result_.converged = advance(iteration);
-    if (failed_ || stopped_ || result_.converged)
-      break;
+    goes_on = goRound(*pairs, iteration);
+  }
+  if (has_last && (goes_on || result_.converged) && !stopped_) {
+    const bool converged = result_.converged;
+    pairs = &last_pairs_at(round_.poses);
+    goRound(*pairs, result_.iterations + 1);
+    result_.converged = result_.converged || converged;
   }
   if (failed_)
     round_.poses = start;
@@ -86,6 +90,18 @@ GraphSlamRun::run(const GraphSlam::Poses& start, const Pairs& pairs_at)
   result_.component = round_.layout.component;
   result_.rms = std::sqrt(error_);
   return std::move(result_);
+}
+
+bool
+GraphSlamRun::goRound(const std::vector<LinkPairs>& pairs, int iteration)
+{
+  measure(pairs);
+  if (iteration == 1)
+    result_.rms_before = std::sqrt(error_);
+  if (round_.links.empty() || hasDiverged())
+    return false;
+  result_.converged = advance(iteration);
+  return !failed_ && !stopped_ && !result_.converged;
 }
 
 void

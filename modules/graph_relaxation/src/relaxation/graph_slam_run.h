@@ -24,12 +24,16 @@ public:
                const std::vector<PoseLink>& measured,
                const GraphSlam::Observer& observer);
 
+  /** \param[in] last_pairs_at pairs of a last round; null: no such round */
   GraphSlamResult
-  run(const GraphSlam::Poses& start, const Pairs& pairs_at);
+  run(const GraphSlam::Poses& start, const Pairs& pairs_at, const Pairs& last_pairs_at);
 
 private:
   static constexpr double kLeastDamping = 1e-12; ///< where links leave directions open
 
+  /** One round. \return whether further rounds may follow */
+  bool
+  goRound(const std::vector<LinkPairs>& pairs, int iteration);
   /** Sums up the pairs at the poses of the round and sets up its links. */
   void
   measure(const std::vector<LinkPairs>& pairs);

@@ -156,6 +156,21 @@ PairMoments::about(const Eigen::Vector3d& origin) const
   return sums;
 }
 
+/** Reduces the sums to those of as many pairs as are independent. */
+void
+thinOut(LinkSums& sums, double redundancy)
+{
+  const double share = 1 / redundancy;
+  sums.weight *= share;
+  sums.equations *= share;
+  sums.scatter *= share;
+  sums.cross *= share;
+  sums.spread *= share;
+  sums.A *= share;
+  sums.b *= share;
+  sums.residual_sq *= share;
+}
+
 /** The pairs of a link in the axes of the world, about the origin of the first scan: coordinates stay
  * small. */
 class PlacedPairs {
@@ -296,6 +311,10 @@ requireSizes(const LinkPairs& pairs)
           "weights.size()",
           pairs.weights.size(),
           "0 or points_from.size()");
+  require(pairs.redundancy >= 1 && std::isfinite(pairs.redundancy),
+          "redundancy",
+          pairs.redundancy,
+          "finite and >= 1");
 }
 
 /** A block of pairs of one link, summed by one thread. */
@@ -366,6 +385,8 @@ sumLinks(const std::vector<LinkPairs>& links,
       of_link.push_back(partials[i]);
     sums[l] =
         mergeTree(std::move(of_link), &PairMoments::merge).about(placed[l].origin());
+    if (links[l].redundancy > 1)
+      thinOut(sums[l], links[l].redundancy);
   }
   const auto later = [&](std::size_t l) {
     return std::max(links[l].from, links[l].to);

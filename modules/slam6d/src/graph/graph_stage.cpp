@@ -35,6 +35,10 @@ constexpr double kRestShare = 0.03;
  * voxel of 20 cm, as published. */
 constexpr double kWakingShare = 0.25;
 
+/** A relaxation is accepted if the agreement rose by this number of standard deviations: 95 %,
+ * as of the bounds. */
+constexpr double kClearGain = 2;
+
 /** Least deviation of links, as a share of the voxel. */
 constexpr double kLeastShare = 0.005;
 
@@ -97,11 +101,15 @@ GraphStage::add(const IcpModel& model)
     scans_.emplace_back(model);
 }
 
+/** A relaxation needs a clear gain: it pairs two scans at a time, matching pairs a scan with all
+ * scans before, so that matched poses are the better ones unless the scans show otherwise.
+ * \param[in] failure reason to reject the poses, whatever their agreement */
 StageResult
 GraphStage::evaluated(StageKind kind,
                       const Poses& before,
                       const Poses& after,
-                      const std::vector<bool>& counted) const
+                      const std::vector<bool>& counted,
+                      const Rejection& failure) const
 {
   const StageAgreement agreement = compareStage(
       scans_, before, after, parameters_.voxel.value, options_.num_threads, sharing_);
@@ -110,6 +118,12 @@ GraphStage::evaluated(StageKind kind,
   stage.agreement_before = agreement.total.before;
   stage.agreement_after = agreement.total.after;
   stage.rejection = agreement.worse(counted);
+  if (!stage.rejection)
+    stage.rejection = failure;
+  if (!stage.rejection && kind == StageKind::kRelaxation &&
+      !agreement.total.isGain(kClearGain))
+    stage.rejection = {
+        RejectReason::kNoClearGain, stage.agreement_after, stage.agreement_before};
   return stage;
 }
 
@@ -212,6 +226,8 @@ GraphStage::makeNetwork(const Slam6DResult& result) const
   network.link_distance = parameters_.link_distance.value;
   network.hysteresis = options_.link_hysteresis;
   network.metric = options_.metric;
+  // The last round weighs planes as matching does; before, partners along them are still wrong.
+  network.last_gicp_epsilon = kReducedGicpEpsilon;
   network.max_distance =
       options_.metric == Metric::kPoint
           ? icp_.max_distance
@@ -294,15 +310,22 @@ GraphStage::relax(Slam6DResult& result, int rounds, const Observer& observer)
   });
   const Poses before = posesOf(result);
   std::vector<Poses> history;
-  const GraphSlamResult relaxed = slam.relax(before, [&](const Poses& now) {
-    history.push_back(now);
-    return network.pairs(now);
-  });
-  StageResult stage =
-      evaluated(StageKind::kRelaxation, before, relaxed.poses, areRegistered(result));
+  const auto searchedBy = [&](auto search) {
+    return [&history, &network, search](const Poses& now) {
+      history.push_back(now);
+      return (network.*search)(now);
+    };
+  };
+  const GraphSlamResult relaxed =
+      slam.relax(before,
+                 searchedBy(&ScanNetwork::pairs),
+                 searchedBy(&ScanNetwork::pairsOfLastRound));
+  StageResult stage = evaluated(StageKind::kRelaxation,
+                                before,
+                                relaxed.poses,
+                                areRegistered(result),
+                                whyNotTaken(relaxed));
   stage.rounds = relaxed.iterations;
-  if (!stage.rejection)
-    stage.rejection = whyNotTaken(relaxed);
   history.push_back(relaxed.poses);
   stage.history.assign(history.begin() + 1, history.end()); // without the start
   const bool taken = conclude(stage, start, relaxed.poses, result);
@@ -328,10 +351,13 @@ GraphStage::matchSimultaneously(Slam6DResult& result, const Observer& observer)
     observer(static_cast<int>(1 + progress.done / scans_.size()));
   });
   const SimultaneousMatchingResult matched = simultaneous.align(scans, before);
+  const bool has_failed = matched.status == Status::kTooFewPairs;
   StageResult stage =
-      evaluated(StageKind::kRelaxation, before, matched.poses, areRegistered(result));
-  if (!stage.rejection && matched.status == Status::kTooFewPairs)
-    stage.rejection = RejectReason::kNoNeighbours;
+      evaluated(StageKind::kRelaxation,
+                before,
+                matched.poses,
+                areRegistered(result),
+                has_failed ? Rejection(RejectReason::kNoNeighbours) : Rejection());
   stage.rounds = static_cast<int>((matched.pops + scans_.size() - 1) / scans_.size());
   conclude(stage, start, matched.poses, result);
 }

@@ -98,7 +98,8 @@ private:
   evaluated(StageKind kind,
             const Poses& before,
             const Poses& after,
-            const std::vector<bool>& counted) const;
+            const std::vector<bool>& counted,
+            const Rejection& failure = {}) const;
 
   const Slam6DOptions& options_;
   const Slam6DParameters& parameters_;

@@ -176,9 +176,13 @@ public:
   GraphSlamResult
   relax(const Poses& poses, const std::vector<LinkPairs>& links) const;
 
-  /** \brief Relaxes with pairs that are searched anew each round. */
+  /** \brief Relaxes with pairs that are searched anew each round.
+   * \param[in] last search of a last round, such as with more pairs, after the stop rule was met or
+   * one round less than max_iterations; none: no such round. With max_iterations 1 there is none */
   GraphSlamResult
-  relax(const Poses& poses, const PairSearch& search) const;
+  relax(const Poses& poses,
+        const PairSearch& search,
+        const PairSearch& last = nullptr) const;
 
 private:
   GraphSlamOptions options_;

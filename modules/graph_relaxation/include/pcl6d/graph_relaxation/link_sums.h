@@ -26,6 +26,9 @@ struct LinkPairs {
   /** empty, or a weight per pair; pairs of weight 0 do not count */
   std::vector<double> weights;
   bool trusted = false; ///< never switched off, as links between successive scans
+  /** how many pairs are worth one independent pair, as near points share the errors of their
+   * normals: the sums are divided by it, the count is not; >= 1 */
+  double redundancy = 1;
 };
 
 /** \brief The sums over the pairs of a link at the current poses (book 5.2.2, 5.3.1, 5.3.3),

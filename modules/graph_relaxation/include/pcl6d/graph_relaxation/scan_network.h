@@ -43,6 +43,7 @@ struct ScanNetworkOptions {
   std::size_t points_per_link = 600;
   Metric metric = Metric::kPoint; ///< how the pairs are to be weighed
   double gicp_epsilon = 0.1;      ///< as IcpOptions::gicp_epsilon; in (0, 1]
+  double last_gicp_epsilon = 0.1; ///< of pairsOfLastRound(); in (0, 1]
   unsigned int num_threads = 0;   ///< 0: a thread per core; never changes the result
   WorkSharing* sharing = nullptr; ///< between processes; null: one process
   /** \throws BadArgument naming the first invalid field and its value */
@@ -83,6 +84,14 @@ public:
   std::vector<LinkPairs>
   pairs(const Poses& poses);
 
+  /** \brief The pairs of a last round: together as many points as all calls of pairs() looked
+   * at, but at most a million, whose pairs take 100 MB. The last round so takes at most about as
+   * long as the rounds before. Near points are not independent: LinkPairs::redundancy lets a link
+   * have the weight of its pairs of pairs().
+   * \return links and pairs as pairs() */
+  std::vector<LinkPairs>
+  pairsOfLastRound(const Poses& poses);
+
   /** \return the links of the last pairs(), with pairs, rms, overlap and condition, and the
    * rejected permanent links of unusable scans; in the order of their scans */
   std::vector<ScanLink>
@@ -103,6 +112,11 @@ private:
     bool trusted;
   };
 
+  struct Round {
+    std::size_t points_per_link; ///< pointsPerLink(), or more
+    double gicp_epsilon;
+  };
+
   double
   slack(const ScanPair& link) const;
   std::set<ScanPair>
@@ -115,10 +129,17 @@ private:
   describeLink(const ScanPair& pair, const Poses& poses) const;
   std::size_t
   pointsPerLink() const;
+  /** \return the step through the points of the later scan of a link */
+  std::size_t
+  strideOf(const ScanPair& link, std::size_t points_per_link) const;
+  /** \param[in,out] remembered of the points of pointsPerLink() */
   LinkPairs
   pairsOf(const ScanPair& link,
           const Poses& poses,
+          const Round& round,
           std::vector<RememberedPartner>& remembered) const;
+  std::vector<LinkPairs>
+  pairsOfAll(const Poses& poses, const Round& round);
 
   const std::vector<NetworkScan>& scans_;
   std::vector<bool> usable_;
@@ -126,6 +147,7 @@ private:
   std::map<ScanPair, Kept> kept_;
   std::set<ScanPair> chosen_;
   Poses chosen_at_;
+  std::size_t looked_at_ = 0; ///< points of all calls of pairs(), of all links
   std::map<ScanPair, std::vector<RememberedPartner>> remembered_; // of chosen links
 };
 

@@ -203,40 +203,53 @@ RayImage::look(const Points& places, const std::vector<float>& sigmas) const
   return seen;
 }
 
+/** \return the finest level that is filled about a direction; null: none */
+const RayImage::Level*
+RayImage::levelAt(const visibility::OnCube& direction) const
+{
+  for (const Level& level : levels_) {
+    const auto& face = level.faces[direction.face];
+    if (!face.empty() && !face[visibility::cellOf(direction, level.side)].isEmpty())
+      return &level;
+  }
+  return nullptr;
+}
+
+double
+RayImage::cellAt(const Eigen::Vector3f& place) const
+{
+  const Aim there = aim(place);
+  const Level* level = there.range == 0 ? nullptr : levelAt(there.direction);
+  return level ? level->cell : 0;
+}
+
 SightOfPlace
 RayImage::lookAlong(const Aim& aim, float sigma) const
 {
   const auto& [direction, range] = aim;
-  if (range == 0)
+  const Level* level = range == 0 ? nullptr : levelAt(direction);
+  if (!level)
     return {};
-  for (const Level& level : levels_) {
-    const auto& face = level.faces[direction.face];
-    if (face.empty())
-      continue;
-    const visibility::Interval& around =
-        face[visibility::cellOf(direction, level.side)];
-    if (around.isEmpty())
-      continue;
-    const auto noise = static_cast<float>(noise_);
-    const float deviation = std::sqrt(noise * noise + sigma * sigma);
-    // Except at grazing angles, the range of a surface in a cell changes by its width.
-    const float tolerance =
-        kSameSigmas * deviation + static_cast<float>(level.cell) * range;
-    const float nearest = rangeOf(around.nearest), farthest = rangeOf(around.farthest);
-    if (range < nearest - tolerance)
-      return {Sight::kFree,
-              nearest - range,
-              (nearest - range) / std::max(deviation, tolerance / kSameSigmas)};
-    if (range > farthest + tolerance)
-      return {Sight::kBehind, 0, 0};
-    const bool at_end = std::abs(range - nearest) <= tolerance ||
-                        std::abs(range - farthest) <= tolerance;
-    return {at_end || farthest - nearest < kOneSurface * tolerance ? Sight::kConfirmed
-                                                                   : Sight::kEdge,
-            0,
-            0};
-  }
-  return {};
+  const visibility::Interval& around =
+      level->faces[direction.face][visibility::cellOf(direction, level->side)];
+  const auto noise = static_cast<float>(noise_);
+  const float deviation = std::sqrt(noise * noise + sigma * sigma);
+  // Except at grazing angles, the range of a surface in a cell changes by its width.
+  const float tolerance =
+      kSameSigmas * deviation + static_cast<float>(level->cell) * range;
+  const float nearest = rangeOf(around.nearest), farthest = rangeOf(around.farthest);
+  if (range < nearest - tolerance)
+    return {Sight::kFree,
+            nearest - range,
+            (nearest - range) / std::max(deviation, tolerance / kSameSigmas)};
+  if (range > farthest + tolerance)
+    return {Sight::kBehind, 0, 0};
+  const bool at_end =
+      std::abs(range - nearest) <= tolerance || std::abs(range - farthest) <= tolerance;
+  return {at_end || farthest - nearest < kOneSurface * tolerance ? Sight::kConfirmed
+                                                                 : Sight::kEdge,
+          0,
+          0};
 }
 
 } // namespace pcl6d

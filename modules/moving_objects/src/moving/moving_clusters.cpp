@@ -2,6 +2,7 @@
 #include "cluster_width.h"
 #include "edge_lines.h"
 #include "moving_clusters.h"
+#include "thin_clusters.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/parallel.h>
@@ -13,18 +14,11 @@
 namespace pcl6d::moving_objects {
 
 namespace {
-/** Weight of a hit in misses: rays may pass beside thin objects, but never end in empty space. */
-constexpr int kHitInMisses = 2;
-
 /** [cells] Neighbours are at most this far apart: an empty cell may lie between two points, and
  * cells are squares. */
 constexpr double kNearCells = 3;
 /** [standard deviations] Largest difference of neighbours along the ray, by noise alone. */
 constexpr double kNearSigmas = 6;
-
-/** Least misses minus twice the hits of a dynamic cluster: two scans saw through four places
- * each, the least number of points in a patch of sightEvidence(). Fewer may be chance. */
-constexpr int kLeastMisses = 8;
 
 /** Largest probability that the rays of all scans passed beside a cluster by chance: 5 %, as in the
  * other tests. */
@@ -52,6 +46,9 @@ constexpr int kNobody = -1;
 /** [cells] Width of the part of a ray image that decides on one direction: a cell and the cells
  * around. */
 constexpr double kCellsLookedAt = 3;
+
+/** [finest cells] Cells up to this width are of the finest level: the next has 1.5. */
+constexpr double kFinestCells = 1.25;
 } // namespace
 
 MovingClusters::MovingClusters(const TestedPositions& observed,
@@ -147,41 +144,62 @@ MovingClusters::findClusters()
   }
 }
 
+/** \return whether the object of a cluster was gone for other scans. Of a thin object, only scans tell
+ * that cannot pass beside it. */
+bool
+MovingClusters::moves(const std::vector<std::size_t>& cluster) const
+{
+  if (isMixture(cluster))
+    return false;
+  constexpr std::uint16_t kAll = 0xFFFF;
+  const bool is_thin =
+      !hasSolidPart(observed_, *observer_votes_.observed().rays, cluster) &&
+      (isHitByOthers(observer_votes_, cluster) || isPorous(observed_, cluster));
+  return wasGone(cluster,
+                 is_thin ? observersAsFine(observed_, observer_votes_, cluster) : kAll);
+}
+
 /** \return whether enough scans saw through the cluster: two scans must have seen through most
  * of its points, or one if only a single scan observed most of the points. If the hits are
  * half of the misses or more, two are always needed: every observer misses an object that
- * left, while different scans miss different parts of a static object. */
+ * left, while different scans miss different parts of a static object.
+ * \param[in] telling observers whose misses count, a bit for each */
 bool
-MovingClusters::moves(const std::vector<std::size_t>& cluster) const
+MovingClusters::wasGone(const std::vector<std::size_t>& cluster,
+                        std::uint16_t telling) const
 {
   int excess = 0;
   std::size_t hits = 0, misses = 0;
   std::vector<std::pair<std::size_t, std::size_t>> of(
       observer_votes_.observers().size());
   for (const std::size_t place : cluster) {
-    excess += excess_[place];
+    const unsigned missed = votes_[place].misses & telling;
+    excess += __builtin_popcount(missed) -
+              kHitInMisses * __builtin_popcount(observer_votes_.lastingHits(place));
     for (std::size_t j = 0; j < of.size(); ++j) {
-      of[j].first += votes_[place].misses >> j & 1U;
+      of[j].first += missed >> j & 1U;
       of[j].second += votes_[place].hits >> j & 1U;
     }
   }
-  int clear = 0, telling = 0;
+  int clear = 0, most = 0;
   for (const auto& [missed, hit] : of) {
     hits += hit;
     misses += missed;
     clear += 2 * missed >= cluster.size() && 4 * hit <= missed ? 1 : 0;
-    telling += 2 * (missed + hit) >= cluster.size() ? 1 : 0;
+    most += 2 * (missed + hit) >= cluster.size() ? 1 : 0;
   }
   const bool was_seen_there = 2 * hits > misses;
-  if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, telling)))
+  if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, most)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster) && !isMixture(cluster);
+  return excess >= kLeastMisses && !isPassedBeside(cluster, telling);
 }
 
 /** \return whether the cluster may consist of returns of beams that hit two surfaces. Such points
  * lie between a nearer and a farther surface, on neither, in a row along the edge of the nearer
  * one; rays of other scans pass there. The image of the own scan tells of nearer and farther
- * surfaces within one cell around a cell, so the row is narrower than these cells. */
+ * surfaces within one cell around a cell, so the row is narrower than these cells. The finest cells are
+ * as narrow as the beam, and need no such limit: rows that follow a bent edge, or both edges of a
+ * post, are wide. */
 bool
 MovingClusters::isMixture(const std::vector<std::size_t>& cluster) const
 {
@@ -195,7 +213,8 @@ MovingClusters::isMixture(const std::vector<std::size_t>& cluster) const
     directions.push_back(observed_.directionOf(place).cast<double>());
   }
   return 2 * between > cluster.size() &&
-         arcWidthOf(directions) < kCellsLookedAt * observed_.cell;
+         (observed_.cell < kFinestCells * RayImageOptions().finest ||
+          arcWidthOf(directions) < kCellsLookedAt * observed_.cell);
 }
 
 Eigen::Vector3d
@@ -213,7 +232,8 @@ MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
  * the edge of a platform, has almost no width. A cluster that another scan hit, like a pole or the
  * top of a table, is passed beside unless one of the scans must have hit it. */
 bool
-MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
+MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
+                               std::uint16_t telling) const
 {
   double chance = 1;
   bool is_hit = false;
@@ -222,7 +242,7 @@ MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster) const
     std::vector<std::size_t> missed;
     for (const std::size_t place : cluster) {
       hit += votes_[place].hits >> j & 1U;
-      if ((votes_[place].misses >> j & 1U) != 0)
+      if ((votes_[place].misses & telling & 1U << j) != 0)
         missed.push_back(place);
     }
     is_hit = is_hit || 2 * hit > cluster.size();

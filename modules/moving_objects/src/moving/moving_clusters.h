@@ -6,6 +6,7 @@
 
 #include <pcl6d/search/point_tree.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl6d::moving_objects {
@@ -43,7 +44,9 @@ private:
   bool
   moves(const std::vector<std::size_t>& cluster) const;
   bool
-  isPassedBeside(const std::vector<std::size_t>& cluster) const;
+  wasGone(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
+  bool
+  isPassedBeside(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
   Eigen::Matrix3d
   scatterOfSurface(const std::vector<std::size_t>& places) const;
   double

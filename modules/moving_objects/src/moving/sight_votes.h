@@ -3,6 +3,7 @@
 
 #include <pcl6d/moving_objects/moving_points.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -62,9 +63,10 @@ public:
   double
   gapAt(const Eigen::Vector3f& place) const
   {
-    const Eigen::Vector3f ray =
-        T_observer_observed_ * place - observer_->rays->origin();
-    return observer_->rays->resolution() * ray.norm();
+    const Eigen::Vector3f seen = T_observer_observed_ * place;
+    const double cell =
+        std::max(observer_->rays->cellAt(seen), observer_->rays->resolution());
+    return cell * (seen - observer_->rays->origin()).norm();
   }
 
   /** \return [m] origin of its rays, in the frame of the observed scan */

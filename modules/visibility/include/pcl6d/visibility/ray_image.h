@@ -85,6 +85,12 @@ public:
   std::vector<SightOfPlace>
   look(const Points& places, const std::vector<float>& sigmas) const;
 
+  /** \return [rad] the cells that answer for a direction: the width of a direction that rays are at
+   * most apart. Wider than resolution() where lines are far apart; 0: no rays there
+   * \param[in] place in that direction, in the scan's frame [m] */
+  double
+  cellAt(const Eigen::Vector3f& place) const;
+
   /** \return [m] standard deviation of a range */
   double
   noise() const
@@ -133,6 +139,8 @@ private:
   };
   Aim
   aim(const Eigen::Vector3f& place) const;
+  const Level*
+  levelAt(const visibility::OnCube& direction) const;
   SightOfPlace
   lookAlong(const Aim& aim, float sigma) const;
   void

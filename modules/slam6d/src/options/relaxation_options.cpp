@@ -73,8 +73,8 @@ describe(RelaxationOptions& o, Slam6DParameters& used, OptionList& list)
       .withHelp(
           slam6d::withBars(relaxationNames()) +
           "|simultaneous|none: method that moves all scans at once after matching; "
-          "simultaneous: scan after scan, until the poses stay; reverted if the map "
-          "gets worse");
+          "simultaneous: scan after scan, until the poses stay; reverted unless the "
+          "scans agree clearly better");
   describeLinks(o, used, list);
 }
 

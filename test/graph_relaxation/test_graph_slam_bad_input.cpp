@@ -124,6 +124,9 @@ TEST(GraphSlamInput, DropsAndNamesLinksWithFewPairs)
   for (std::size_t l = 0; l < graph.links.size(); ++l)
     EXPECT_EQ(result.links[l].used, l < 10);
   EXPECT_EQ(result.links[10].pairs, 19u);
+  auto alike = graph.links; // 60 pairs that are worth 15
+  alike[9].redundancy = 4;
+  EXPECT_FALSE(slamOf().relax(graph.start, alike).links[9].used);
   auto without = graph.links;
   without.resize(10);
   EXPECT_LT(largestDistance(result.poses, slamOf().relax(graph.start, without).poses),
@@ -179,6 +182,25 @@ TEST(GraphSlamInput, ThatMovesAwaySaysSo)
   EXPECT_EQ(result.status, Status::kDiverged);
   EXPECT_FALSE(result.converged);
   expectAsGiven(result, graph.start);
+}
+
+TEST(GraphSlamInput, ThatIsWorseInALastRoundIsLeftOut)
+{
+  const GraphCase graph = makeGraph({});
+  Random random(1);
+  const auto search = [&](const Poses&) { return graph.links; };
+  const auto result = slamOf().relax(graph.start, search, [&](const Poses&) {
+    auto links = graph.links;
+    for (LinkPairs& link : links)
+      for (Eigen::Vector3f& v : link.points_to)
+        v += 1000 * randomVector(random, 1).cast<float>();
+    return links;
+  });
+  const auto without = slamOf().relax(graph.start, search);
+  EXPECT_EQ(result.status, Status::kOk);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT(largestDistance(result.poses, without.poses), 1e-12);
+  EXPECT_NEAR(result.rms, without.rms, 1e-12);
 }
 
 TEST(GraphSlamInput, StopsAtTheLimit)

@@ -208,7 +208,7 @@ SweepTracker::Track::commonJump(const OpeningSweeps& sweeps) const
 }
 
 /** Matches a sweep from its own motion. The change of the velocity within stays: matching would tell
- * it from its start, here no velocity of the sweep before.
+ * it from its start, here no velocity of the sweep before. In parts, the offsets measure all changes.
  * \param[in,out] sweep with its motion \return whether the sweep matches the map */
 bool
 SweepTracker::Track::matchAgain(const LocalMap& map, OpeningSweep& sweep) const
@@ -230,7 +230,9 @@ SweepTracker::Track::matchAgain(const LocalMap& map, OpeningSweep& sweep) const
   if (!isMatched(found))
     return false;
   sweep.motion = found.motion;
-  sweep.motion.change = prior.motion.change;
+  if (found.motion.offsets
+          .empty()) // offsets are measured from the motion with its change
+    sweep.motion.change = prior.motion.change;
   sweep.covariance = found.covariance;
   sweep.centre = prior.centre;
   return true;

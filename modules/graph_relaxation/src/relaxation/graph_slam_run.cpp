@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl6d::graph_relaxation {
 
@@ -77,9 +78,14 @@ GraphSlamRun::run(const GraphSlam::Poses& start,
   }
   if (has_last && (goes_on || result_.converged) && !stopped_) {
     const bool converged = result_.converged;
-    pairs = &last_pairs_at(round_.poses);
+    const GraphSlam::Poses found = round_.poses;
+    pairs = &last_pairs_at(found);
     goRound(*pairs, result_.iterations + 1);
     result_.converged = result_.converged || converged;
+    if (std::exchange(failed_, false)) {
+      round_.poses = found;
+      pairs = &pairs_at(found);
+    }
   }
   if (failed_)
     round_.poses = start;
@@ -118,7 +124,8 @@ GraphSlamRun::measure(const std::vector<LinkPairs>& pairs)
     result_.links.push_back(reportOf(pairs[l], sums[l]));
     if (!switch_moves_)
       result_.links[l].switch_weight = before[l].switch_weight;
-    if (sums[l].count < options_.min_pairs)
+    if (static_cast<double>(sums[l].count) <
+        static_cast<double>(options_.min_pairs) * pairs[l].redundancy)
       continue;
     round_.links.push_back({pairs[l].from, pairs[l].to, sums[l], nullptr, {}, 1});
     report_of_link_.push_back(l);

@@ -149,14 +149,14 @@ MovingClusters::findClusters()
 bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
-  if (isMixture(cluster))
-    return false;
   constexpr std::uint16_t kAll = 0xFFFF;
+  if (!wasGone(cluster, kAll) || isMixture(cluster))
+    return false;
   const bool is_thin =
       !hasSolidPart(observed_, *observer_votes_.observed().rays, cluster) &&
       (isHitByOthers(observer_votes_, cluster) || isPorous(observed_, cluster));
-  return wasGone(cluster,
-                 is_thin ? observersAsFine(observed_, observer_votes_, cluster) : kAll);
+  return !is_thin ||
+         wasGone(cluster, observersAsFine(observed_, observer_votes_, cluster));
 }
 
 /** \return whether enough scans saw through the cluster: two scans must have seen through most

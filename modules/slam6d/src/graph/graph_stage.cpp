@@ -102,7 +102,8 @@ GraphStage::add(const IcpModel& model)
 }
 
 /** A relaxation needs a clear gain: it pairs two scans at a time, matching pairs a scan with all
- * scans before, so that matched poses are the better ones unless the scans show otherwise.
+ * scans before, so that matched poses are the better ones unless the scans show otherwise. Given
+ * links, of the user or of a start in any order, tell of poses that were not matched so.
  * \param[in] failure reason to reject the poses, whatever their agreement */
 StageResult
 GraphStage::evaluated(StageKind kind,
@@ -121,7 +122,7 @@ GraphStage::evaluated(StageKind kind,
   if (!stage.rejection)
     stage.rejection = failure;
   if (!stage.rejection && kind == StageKind::kRelaxation &&
-      !agreement.total.isGain(kClearGain))
+      options_.given_links.empty() && !agreement.total.isGain(kClearGain))
     stage.rejection = {
         RejectReason::kNoClearGain, stage.agreement_after, stage.agreement_before};
   return stage;
@@ -397,7 +398,8 @@ GraphStage::relaxAgain(Slam6DResult& result, const Observer& observer)
                      links.end(),
                      [](const ScanLink& link) { return link.kind != LinkKind::kLoop; }),
       links.end());
-  relax(result, 1, observer);
+  constexpr int kRounds = 2; // the last one with many pairs
+  relax(result, kRounds, observer);
 }
 
 } // namespace pcl6d::slam6d

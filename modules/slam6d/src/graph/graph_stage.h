@@ -64,7 +64,7 @@ public:
   void
   run(Slam6DResult& result, const ClosedLoops& online, const Observer& observer);
 
-  /** \brief Runs another round of relaxation with the scans added to this stage, from which the
+  /** \brief Runs another round of relaxation, and a last one with many pairs, with the scans added to this stage, from which the
    * dynamic points were removed. No effect without relaxation in the options. */
   void
   relaxAgain(Slam6DResult& result, const Observer& observer);

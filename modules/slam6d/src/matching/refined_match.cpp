@@ -21,6 +21,18 @@ isFixed(const IcpResult& match)
   return (match.status == Status::kOk || match.status == Status::kMaxIterations) &&
          match.localizability && match.localizability->openDirections() == 0;
 }
+
+/** \return [m] mean distance of points from one pose to another */
+double
+meanMotion(const Points& points,
+           const Eigen::Isometry3d& from,
+           const Eigen::Isometry3d& to)
+{
+  double sum = 0;
+  for (const Eigen::Vector3f& point : points)
+    sum += (to * point.cast<double>() - from * point.cast<double>()).norm();
+  return sum / static_cast<double>(points.size());
+}
 } // namespace
 
 bool
@@ -42,13 +54,12 @@ refineMatch(const IcpTarget& target,
   refining.gicp_epsilon = std::min(options.gicp_epsilon, IcpOptions().gicp_epsilon);
   refining.robust = RobustKernel::kGemanMcClure;
   refining.max_distance_start = 0;
-  refining.max_iterations = kRefiningIterations;
+  refining.max_iterations = std::min(options.max_iterations, kRefiningIterations);
   const IcpResult refined = icp(target, source, found.T_target_source, refining);
   found.iterations += refined.iterations;
-  const Eigen::Vector3d& centroid = found.localizability->centroid;
-  const Eigen::Isometry3d motion =
-      refined.T_target_source * found.T_target_source.inverse();
-  if (isFixed(refined) && (motion * centroid - centroid).norm() <= options.max_distance)
+  if (isFixed(refined) &&
+      meanMotion(*source.points, found.T_target_source, refined.T_target_source) <=
+          options.max_distance)
     found.T_target_source = refined.T_target_source;
 }
 

@@ -68,11 +68,11 @@ GraphSlamRun::run(const GraphSlam::Poses& start,
                   const Pairs& last_pairs_at)
 {
   round_.poses = start;
-  const std::vector<LinkPairs>* pairs = nullptr;
   const bool has_last = last_pairs_at && options_.max_iterations > 1;
   const int rounds = options_.max_iterations - (has_last ? 1 : 0);
-  bool goes_on = true;
-  for (int iteration = 1; iteration <= rounds && goes_on; ++iteration) {
+  const std::vector<LinkPairs>* pairs = &pairs_at(round_.poses);
+  bool goes_on = goRound(*pairs, 1);
+  for (int iteration = 2; iteration <= rounds && goes_on; ++iteration) {
     pairs = &pairs_at(round_.poses);
     goes_on = goRound(*pairs, iteration);
   }

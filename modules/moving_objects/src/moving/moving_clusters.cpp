@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_width.h"
 #include "edge_lines.h"
+#include "mixed_returns.h"
 #include "moving_clusters.h"
 #include "thin_clusters.h"
 
@@ -42,13 +42,6 @@ constexpr float kSideSigmas = 3;
 constexpr std::size_t kPlacesPerBlock = 256;
 
 constexpr int kNobody = -1;
-
-/** [cells] Width of the part of a ray image that decides on one direction: a cell and the cells
- * around. */
-constexpr double kCellsLookedAt = 3;
-
-/** [finest cells] Cells up to this width are of the finest level: the next has 1.5. */
-constexpr double kFinestCells = 1.25;
 } // namespace
 
 MovingClusters::MovingClusters(const TestedPositions& observed,
@@ -150,10 +143,11 @@ bool
 MovingClusters::moves(const std::vector<std::size_t>& cluster) const
 {
   constexpr std::uint16_t kAll = 0xFFFF;
-  if (!wasGone(cluster, kAll) || isMixture(cluster))
+  const RayImage& own = *observer_votes_.observed().rays;
+  if (!wasGone(cluster, kAll) || areMixedReturns(observed_, own, cluster))
     return false;
   const bool is_thin =
-      !hasSolidPart(observed_, *observer_votes_.observed().rays, cluster) &&
+      !hasSolidPart(observed_, own, cluster) &&
       (isHitByOthers(observer_votes_, cluster) || isPorous(observed_, cluster));
   return !is_thin ||
          wasGone(cluster, observersAsFine(observed_, observer_votes_, cluster));
@@ -192,29 +186,6 @@ MovingClusters::wasGone(const std::vector<std::size_t>& cluster,
   if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, most)))
     return false;
   return excess >= kLeastMisses && !isPassedBeside(cluster, telling);
-}
-
-/** \return whether the cluster may consist of returns of beams that hit two surfaces. Such points
- * lie between a nearer and a farther surface, on neither, in a row along the edge of the nearer
- * one; rays of other scans pass there. The image of the own scan tells of nearer and farther
- * surfaces within one cell around a cell, so the row is narrower than these cells. The finest cells are
- * as narrow as the beam, and need no such limit: rows that follow a bent edge, or both edges of a
- * post, are wide. */
-bool
-MovingClusters::isMixture(const std::vector<std::size_t>& cluster) const
-{
-  const RayImage& own = *observer_votes_.observed().rays;
-  std::size_t between = 0;
-  std::vector<Eigen::Vector3d> directions;
-  directions.reserve(cluster.size());
-  for (const std::size_t place : cluster) {
-    const Eigen::Vector3f& at = observed_.places[place];
-    between += own.look(at, 0).sight == Sight::kEdge ? 1 : 0;
-    directions.push_back(observed_.directionOf(place).cast<double>());
-  }
-  return 2 * between > cluster.size() &&
-         (observed_.cell < kFinestCells * RayImageOptions().finest ||
-          arcWidthOf(directions) < kCellsLookedAt * observed_.cell);
 }
 
 Eigen::Vector3d

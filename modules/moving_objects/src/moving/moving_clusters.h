@@ -52,8 +52,6 @@ private:
   double
   chanceToPassBeside(const std::vector<std::size_t>& places,
                      const Observer& observer) const;
-  bool
-  isMixture(const std::vector<std::size_t>& cluster) const;
   Eigen::Vector3d
   middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t

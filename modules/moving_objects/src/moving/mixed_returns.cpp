@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mixed_returns.h"
-
 #include "cluster_width.h"
+#include "mixed_returns.h"
 
 namespace pcl6d::moving_objects {
 

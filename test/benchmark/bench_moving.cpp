@@ -135,12 +135,12 @@ run(const std::vector<std::string>& arguments)
     MovingPointsOptions options;
     options.num_threads = static_cast<unsigned int>(knobs["threads"]);
     const double start = processorSeconds();
-    const MovingPoints judges(seen(set), options);
+    const MovingPoints moving(seen(set), options);
     Score score;
     std::size_t points = 0;
     std::vector<std::vector<PointMotion>> told;
     for (std::size_t i = 0; i < set.scans.size(); ++i) {
-      told.push_back(judges.evaluate(i, set.measured[i]));
+      told.push_back(moving.classify(i, set.measured[i]));
       points += set.measured[i].size();
     }
     const double spent = processorSeconds() - start;
@@ -158,7 +158,7 @@ run(const std::vector<std::string>& arguments)
         one.print("", 0, 1);
       }
     }
-    std::printf("  background %.3f\n", judges.background());
+    std::printf("  background %.3f\n", moving.background());
     score.print("ours", spent, points);
     if (knobs["peers"])
       for (const MovingPeer& peer : movingPeers()) {

@@ -38,18 +38,18 @@ constexpr double kMeetingSigmas = 0.6745;
 constexpr std::size_t kLeastMeeting = 16;
 } // namespace
 
-Observer::Observer(const SeenScan& classify,
+Observer::Observer(const SeenScan& observer,
                    const SeenScan& observed,
                    std::ptrdiff_t later)
-: observer_(&classify)
+: observer_(&observer)
 , later_(later)
 , T_observer_observed_(
-      (classify.T_world_scan.inverse() * observed.T_world_scan).cast<float>())
+      (observer.T_world_scan.inverse() * observed.T_world_scan).cast<float>())
 , noise_(observed.rays ? observed.rays->noise() : 0)
-, variance_(classify.sigma.translation * classify.sigma.translation +
+, variance_(observer.sigma.translation * observer.sigma.translation +
             observed.sigma.translation * observed.sigma.translation)
 , turn_of_observed_(observed.sigma.rotation)
-, turn_of_observer_(classify.sigma.rotation)
+, turn_of_observer_(observer.sigma.rotation)
 {}
 
 float

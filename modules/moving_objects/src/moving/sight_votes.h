@@ -33,7 +33,7 @@ class Observer {
 public:
   /** Keeps references to the scans.
    * \param[in] later number of scans from the observed scan to the observer; negative: before */
-  Observer(const SeenScan& classify, const SeenScan& observed, std::ptrdiff_t later);
+  Observer(const SeenScan& observer, const SeenScan& observed, std::ptrdiff_t later);
 
   std::ptrdiff_t
   later() const

@@ -88,6 +88,20 @@ private:
   PillarRoom room_;
 };
 
+/** Corrects the points of a sweep of CorridorSweeps::drive() by the true motion within it, to its
+ * begin; the times stay. */
+inline void
+takeMotionOut(Sweep& sweep)
+{
+  const Eigen::Isometry3d T_begin_world =
+      CorridorSweeps::poseAt(*sweep.stamp).inverse();
+  for (std::size_t i = 0; i < sweep.points.size(); ++i)
+    sweep.points[i] =
+        (T_begin_world * CorridorSweeps::poseAt(*sweep.stamp + sweep.times[i]) *
+         sweep.points[i].cast<double>())
+            .cast<float>();
+}
+
 inline std::vector<TrackedSweep>
 trackAll(const std::vector<Sweep>& sweeps, const SweepTrackerOptions& options = {})
 {

@@ -74,7 +74,8 @@ openInput(const Settings& settings,
           std::move(stages),
           std::move(tracked.drive),
           std::move(tracked.paths),
-          std::move(tracked.contexts)};
+          std::move(tracked.contexts),
+          tracked.are_moving};
 }
 
 RunScans
@@ -87,8 +88,8 @@ openScans(RunInput& input, const Settings& settings, const EarlierRuns& earlier)
     return scans;
   }
   // Sweeps tracked with the times of their points are deskewed along the tracked motion.
-  const bool is_tracked_in_motion = settings.deskew == Deskew::kNone &&
-                                    folder.posesAreEstimated() && haveTimes(folder);
+  const bool is_tracked_in_motion =
+      settings.deskew == Deskew::kAuto && input.are_moving;
   if (settings.deskew == Deskew::kOdometry || is_tracked_in_motion)
     scans.deskew(settings.interpolation, input.paths);
   scans.setDriveContexts(std::move(input.contexts));

@@ -28,6 +28,7 @@ struct RunInput {
                                     ///< no drive
   std::vector<Trajectory> paths; ///< the tracked motion within each scan (TrackedScans)
   std::vector<DriveContext> contexts; ///< by tracking (TrackedScans)
+  bool are_moving = false;            ///< by tracking (TrackedScans)
 };
 
 /** \return the chosen scans, after the scans of an earlier run; or the scans of joined runs

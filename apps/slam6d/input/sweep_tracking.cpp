@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/progress_bar.h"
 #include "slam6d/input/drive_closing.h"
+#include "slam6d/input/drive_tracker.h"
 #include "slam6d/input/sweep_tracking.h"
-#include "slam6d/input/tracked_drive.h"
 
 #include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
@@ -66,6 +66,16 @@ sweepOf(const ScanFolder& folder, std::size_t i, const RunScans* times)
   return sweep;
 }
 
+/** \return how the points of the sweeps are taken (--deskew) */
+SweepPoints
+pointsOfSweeps(const Settings& settings, const ScanFolder& folder)
+{
+  if (settings.deskew == Deskew::kNone || !haveTimes(folder))
+    return SweepPoints::kRigid;
+  return settings.deskew == Deskew::kAuto ? SweepPoints::kUnknown
+                                          : SweepPoints::kMoving;
+}
+
 /** Tracks all sweeps. The next sweep is read meanwhile, unless only one thread is allowed.
  * \return false: given up (--track auto) */
 bool
@@ -73,7 +83,7 @@ trackAll(const Settings& settings,
          const ScanFolder& folder,
          const ProgressCallback& progress,
          ProgressBar& bar,
-         TrackedDrive& drive)
+         DriveTracker& drive)
 {
   const std::size_t count = folder.size();
   RunScans times(folder);
@@ -100,6 +110,7 @@ trackAll(const Settings& settings,
       return false;
     }
   }
+  drive.finish();
   return true;
 }
 
@@ -173,13 +184,16 @@ trackSweeps(const Settings& settings, ScanFolder& folder, const Interrupt* inter
   ProgressCallback progress = [&bar](const Progress& now) { bar.show(now); };
   if (interrupt != nullptr)
     progress = watched(bar, *interrupt);
-  TrackedDrive tracked(trackerOptions(settings.slam), folder, bar);
-  if (!trackAll(settings, folder, progress, bar, tracked))
+  DriveTracker tracker(
+      trackerOptions(settings.slam), folder, bar, pointsOfSweeps(settings, folder));
+  if (!trackAll(settings, folder, progress, bar, tracker))
     return {};
+  TrackedDrive& tracked = tracker.drive();
   const std::size_t count = folder.size();
   TrackedScans found;
+  found.are_moving = tracker.isMoving();
   found.drive = tracked.result();
-  folder.replacePoses(found.drive->poses, tracked.source());
+  folder.replacePoses(found.drive->poses, tracker.source());
   const std::vector<std::size_t>& keyframes = tracked.keyframes();
   const auto frames = tracked.frames();
   if (!settings.takes_keyframes || keyframes.size() < 2 || keyframes.size() == count) {

@@ -31,6 +31,8 @@ struct TrackedScans {
   std::vector<Trajectory> paths;
   /** of each scan that remains selected; empty: not tracked */
   std::vector<DriveContext> contexts;
+  bool are_moving =
+      false; ///< the points hold the motion within the sweeps, and have times
 };
 
 /** \brief Tracks the scans of a folder in order (SweepTracker), and replaces its initial poses by

@@ -43,10 +43,12 @@ LostSweeps::say(const std::string& what, std::size_t i, const std::string& more)
       std::to_string(folder_.index(i)) + " (" + folder_.name(i) + ")";
   if (first_.empty())
     first_ = ", first at sweep " + sweep;
+  if (bar_ == nullptr)
+    return;
   if (++num_said_ <= kSaid)
-    bar_.say("tracking: " + what + sweep + more);
+    bar_->say("tracking: " + what + sweep + more);
   if (num_said_ == kSaid)
-    bar_.say("tracking: further lost sweeps are only counted");
+    bar_->say("tracking: further lost sweeps are only counted");
 }
 
 namespace {
@@ -69,7 +71,7 @@ pathWithStamp(const TrackedSweep& sweep)
 
 TrackedDrive::TrackedDrive(const SweepTrackerOptions& options,
                            const ScanFolder& folder,
-                           ProgressBar& bar)
+                           ProgressBar* bar)
 : folder_(folder)
 , has_given_(folder.posesDiffer())
 , tracker_(options)
@@ -106,11 +108,11 @@ TrackedDrive::prediction(std::size_t i) const
   return exactlyRigid(drive_.poses.back() * motion);
 }
 
-void
+TrackedSweep
 TrackedDrive::track(std::size_t i, Sweep sweep)
 {
   sweep.prediction = prediction(i);
-  const TrackedSweep found = tracker_.track(sweep);
+  TrackedSweep found = tracker_.track(sweep);
   is_lost_ = found.status == SweepStatus::kLost;
   is_open_ = found.free_directions > 0;
   if (found.status == SweepStatus::kFirst)
@@ -139,6 +141,7 @@ TrackedDrive::track(std::size_t i, Sweep sweep)
   else if (is_lost_)
     drive_.lost.push_back(folder_.index(i));
   addToSubmaps(i, found, is_keyframe);
+  return found;
 }
 
 void

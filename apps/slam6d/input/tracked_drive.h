@@ -24,8 +24,14 @@ driveOf(const ScanFolder& folder);
 /** \brief Says where the track was lost, and where it went on. */
 class LostSweeps {
 public:
-  /** Keeps references. */
-  LostSweeps(const ScanFolder& folder, ProgressBar& bar) : folder_(folder), bar_(bar) {}
+  /** Keeps references. \param[in] bar null: nothing is said */
+  LostSweeps(const ScanFolder& folder, ProgressBar* bar) : folder_(folder), bar_(bar) {}
+
+  void
+  sayTo(ProgressBar* bar)
+  {
+    bar_ = bar;
+  }
 
   /** Tells the status of the next sweep. */
   void
@@ -43,7 +49,7 @@ private:
   say(const std::string& what, std::size_t i, const std::string& more);
 
   const ScanFolder& folder_;
-  ProgressBar& bar_;
+  ProgressBar* bar_;
   bool is_lost_ = false;
   std::size_t num_said_ = 0;
   std::string first_;
@@ -54,14 +60,21 @@ private:
  * keyframe, so that it is matched as a scan of the map. */
 class TrackedDrive {
 public:
-  /** Keeps references. */
+  /** Keeps references. \param[in] bar null: nothing is said of lost sweeps */
   TrackedDrive(const SweepTrackerOptions& options,
                const ScanFolder& folder,
-               ProgressBar& bar);
+               ProgressBar* bar);
 
   /** \brief Finds the pose of the next sweep. \param[in] i its number in the folder */
-  void
+  TrackedSweep
   track(std::size_t i, Sweep sweep);
+
+  /** \brief Says from now on where sweeps are lost. */
+  void
+  sayTo(ProgressBar* bar)
+  {
+    lost_.sayTo(bar);
+  }
 
   /** \return all sweeps with their poses; named as lost are those without a given pose */
   DriveResult

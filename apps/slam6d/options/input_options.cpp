@@ -18,14 +18,17 @@ namespace {
 void
 takeDeskew(Settings& s, const std::string& word)
 {
-  if (word == "no")
+  if (word == "auto")
+    s.deskew = Deskew::kAuto;
+  else if (word == "no")
     s.deskew = Deskew::kNone;
   else if (word == "yes" || word == kDeskewOdometry)
     s.deskew = Deskew::kOdometry;
   else if (word == kDeskewEstimate)
     s.deskew = Deskew::kEstimate;
   else
-    throw BadArgument("word = " + word + ", but must be odometry, estimate, yes or no");
+    throw BadArgument("word = " + word +
+                      ", but must be auto, odometry, estimate, yes or no");
 }
 
 void
@@ -201,12 +204,13 @@ describeDeskew(OptionList& list, Settings& s, const OptionList& slam)
   list.stage(OptionStage::kDeskew);
   list.addWord("deskew WORD", s.deskew, reader(s, takeDeskew))
       .countsIf([&s] { return !s.joins; }, "of SCAN_DIR")
-      .withDefault("no")
+      .withDefault("auto")
       .impliedWord("yes")
       .withHelp("scans were taken while moving: correct each point by its time (field "
                 "t or time). odometry, or no word: along the initial poses; needs time "
                 "stamps (times.txt, or TUM rows). estimate: by the motion estimated "
-                "from the scans; needs neither poses nor stamps");
+                "from the scans; needs neither poses nor stamps. auto: tracked sweeps, "
+                "unless their points are corrected already; no: never");
   list.addWord("interpolation",
                s.interpolation,
                [&s](const std::string& word) {

@@ -23,6 +23,7 @@ namespace pcl6d::app {
 
 /** \brief Method of deskewing. */
 enum class Deskew {
+  kAuto, ///< tracked sweeps along the tracked motion, unless corrected already; no further scans
   kNone,
   kOdometry, ///< along the initial poses
   kEstimate  ///< as estimated from the scans
@@ -81,7 +82,7 @@ struct Settings {
   Tracking track = Tracking::kAuto;
   /** only the keyframes of tracked sweeps are scans of the map (--every auto) */
   bool takes_keyframes = true;
-  Deskew deskew = Deskew::kNone;
+  Deskew deskew = Deskew::kAuto;
   MotionInterpolation interpolation = MotionInterpolation::kLinear; ///< of kOdometry
   LineFilter filter = LineFilter::kNone; ///< along the lines of each scan
   OtherFilter other_filter;              ///< filter of a plug-in, instead of `filter`

@@ -253,13 +253,17 @@ private:
   describe(SweepMatch& match) const
   {
     std::vector<const MapSurface*> surfaces;
+    std::vector<double> distances;
     for (const Pair& pair : pairs_) {
       if (!pair.surface)
         continue;
       surfaces.push_back(pair.surface);
+      if (pair.surface->shape == VoxelShape::kPlane)
+        distances.push_back(std::abs(pair.distance));
       match.inliers +=
           pair.normalised() <= kKernelDeviations * std::max(1.0, match.deviation);
     }
+    match.distance = upperMedian(std::move(distances));
     match.overlap =
         static_cast<double>(match.inliers) / static_cast<double>(points_.size());
     const auto count = static_cast<double>(surfaces.size());

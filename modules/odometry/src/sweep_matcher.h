@@ -48,6 +48,7 @@ struct SweepMatch {
   double fit = 0; ///< inliers as a share of the points in voxels with a surface: new
                   ///< parts of a sweep do not count
   double deviation = 1;   ///< of distances, in deviations of their surfaces
+  double distance = 0;    ///< [m] median of the points from their planes
   double correlation = 1; ///< points per surface
   Matrix12 covariance =
       Matrix12::Zero();    ///< of begin and end, about `centre` of the prior

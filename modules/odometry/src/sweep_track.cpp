@@ -164,6 +164,7 @@ SweepTracker::Track::accept(const Current& now,
   found.status = was_lost ? SweepStatus::kFoundAgain : SweepStatus::kTracked;
   found.inliers = match.inliers;
   found.overlap = match.overlap;
+  found.distance = match.distance;
   found.deviation =
       distanceBetween(prior.motion.end(), match.motion.end()).translation +
       range_ * distanceBetween(prior.motion.end(), match.motion.end()).rotation;

@@ -52,6 +52,8 @@ struct TrackedSweep {
   std::size_t points = 0;  ///< finite points within the range gate
   std::size_t inliers = 0; ///< of the points compared with the map
   double overlap = 0;      ///< share of inliers
+  double distance = 0; ///< [m] median of the points from the planes of the map; 0 of
+                       ///< a sweep without a match
   double deviation =
       0; ///< [m] of the begin and end from the prediction, at the typical range
   /** of begin, for motions (translation [m], rotation [rad]) in world axes about the sensor */

@@ -16,8 +16,8 @@ constexpr std::size_t kWarmUp = 30;
 constexpr std::size_t kSweepsOfVote = 20;
 
 /** The lead that decides. If a vote is wrong once in ten times, a wrong lead of 4 comes with a probability of
- * (1/9)^4 < 0.001; at the end of a short drive, one of 2 with 1 %. Of 13 simulated drives as measured
- * (five scenes, six scanners, 0.3 to 12 m/s), no vote of 59 was wrong. */
+ * (1/9)^4 < 0.001; at the end of a short drive, one of 2 with 1 %. Of 21 simulated drives as measured
+ * (six scenes, six scanners, 0.3 to 15 m/s), no vote of 94 was wrong; of the same with corrected points, 12 of 87. */
 constexpr int kLead = 4, kLeadInTheEnd = 2;
 
 /** The motion within a sweep tells if it moves points by more than the noise: by this many times

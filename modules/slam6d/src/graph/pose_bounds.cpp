@@ -45,6 +45,10 @@ measures(const LinkCheck& link, const MapVerification& map)
          map.scans[link.from].tied && map.scans[link.to].tied;
 }
 
+/** Squared errors of links, per degree of freedom: the median by chance (chi2 with 6 degrees: 5.348),
+ * and the largest in 99.9 % of the links (22.46). */
+constexpr double kMedianOfChance = 5.348 / 6, kLargestOfChance = 22.46 / 6;
+
 bool
 isOfRefinedLinks(const MapVerification& map)
 {
@@ -111,18 +115,21 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
 /** \param[in] scans of the graph \return mean squared shift required by surfaces, in standard
  * deviations: above 1 the links' covariances are too small (a posteriori variance factor of
  * geodesy). Weakly constrained scans keep moving in one direction when surface shifts are
- * followed, which no cycle reveals. */
+ * followed, which no cycle reveals. Shifts of refined maps count up to the largest by chance: links
+ * of a few scans that agree on a larger one show an error of the map, the way to the optimum. */
 double
 varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& scans)
 {
   std::vector<bool> is_in_graph(map.scans.size(), false);
   for (const std::size_t i : scans)
     is_in_graph[i] = true;
+  const bool are_refined = isOfRefinedLinks(map);
   double sum = 0;
   std::size_t links = 0;
   for (const LinkCheck& link : map.links)
     if (is_in_graph[link.from] && measures(link, map) && link.deviation > 0) {
-      sum += squaredSigmasOf(link);
+      const double square = squaredSigmasOf(link);
+      sum += are_refined ? std::min(square, kLargestOfChance) : square;
       ++links;
     }
   return links > 0 ? sum / static_cast<double>(links) : 1;
@@ -131,9 +138,7 @@ varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& sca
 /** \return the factor on the covariances from the links. Reasons: cycles do not close, surfaces
  * require larger shifts than the covariances allow, and links of a scan share its errors: m links
  * of a scan have the information of sqrt(m) independent links, which fits the NEES of simulated
- * scenes. Refined links are at rest, and agree with each other where they differ from the map: their
- * shift is an error of the map, which is the way to the optimum, and no error of the links. What is
- * left of their errors lies in the planes of a scan, equal in all of its links, and closes every
+ * scenes. What is left of the errors of refined links lies in the planes of a scan, equal in all of its links, and closes every
  * cycle: m links have the information of one. */
 double
 excessOf(const PoseGraphResult& result,
@@ -144,18 +149,14 @@ excessOf(const PoseGraphResult& result,
   const std::size_t conditions = 6 * links, unknowns = 6 * (scans.size() - 1);
   const double links_per_pose =
       static_cast<double>(links) / static_cast<double>(scans.size() - 1);
-  const bool has_cycles = conditions > unknowns, are_refined = isOfRefinedLinks(map);
   const double unclosed =
-      has_cycles ? result.chi2_after / static_cast<double>(conditions - unknowns) : 1;
-  const double of_shifts = has_cycles && are_refined ? 1 : varianceFactorOf(map, scans);
+      conditions > unknowns
+          ? result.chi2_after / static_cast<double>(conditions - unknowns)
+          : 1;
   const double shared = std::max(1.0, links_per_pose);
-  return std::max({1.0, unclosed, of_shifts}) *
-         (are_refined ? shared : std::sqrt(shared));
+  return std::max({1.0, unclosed, varianceFactorOf(map, scans)}) *
+         (isOfRefinedLinks(map) ? shared : std::sqrt(shared));
 }
-
-/** Squared errors of links, per degree of freedom: the median by chance (chi2 with 6 degrees: 5.348),
- * and the largest in 99.9 % of the links (22.46). */
-constexpr double kMedianOfChance = 5.348 / 6, kLargestOfChance = 22.46 / 6;
 
 /** Rounds of weights: each finds links hidden behind larger errors. */
 constexpr int kRoundsOfWeights = 3;

@@ -165,6 +165,31 @@ TEST(PoseBounds, ShrinkWithTheFourthRootOfTheLinksAsTheseShareErrors)
   EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound / std::pow(2.0, 0.25), 1e-9);
 }
 
+TEST(PoseBounds, OfRefinedLinksDoNotShrinkWithTheLinksAsTheseShareAllErrors)
+{
+  LinkCheck refined = link(0, 1, diagonalBound(0.02, 0.01));
+  refined.refined = true;
+  const auto one = bounded(line(2), mapOf(2, {refined}));
+  const auto two = bounded(line(2), mapOf(2, {refined, refined}));
+  EXPECT_NEAR(*two.scans[1].bound, *one.scans[1].bound, 1e-9);
+}
+
+TEST(PoseBounds, OfRefinedLinksDoNotFollowALinkThatContradictsTheRest)
+{
+  const auto of = [](double error, bool is_refined) {
+    std::vector<LinkCheck> links;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t k = i + 1; k < 6; ++k) {
+        links.push_back(link(i, k, diagonalBound(0.01, 0.001)));
+        links.back().refined = is_refined;
+      }
+    links[7].pull(1) = error;
+    return *bounded(line(6), mapOf(6, links)).scans[5].bound;
+  };
+  EXPECT_LT(of(1, true), 1.5 * of(0, true));
+  EXPECT_GT(of(1, false), 5 * of(0, false)) << "equal weights have no such rule";
+}
+
 TEST(PoseBounds, CountTheWayThatTheLinksAskFor)
 {
   LinkCheck pulled = link(0, 1, diagonalBound(0.01, 0.001));
@@ -215,6 +240,25 @@ TEST(PoseBounds, CountLinksWhoseSurfacesAskForAShift)
       << "it may be elsewhere";
   links.back().elsewhere = 0.001;
   EXPECT_GT(*bounded(line(6), mapOf(6, links)).scans[5].bound, 0.5);
+}
+
+TEST(PoseBounds, OfRefinedLinksFollowTheirOwnShift)
+{
+  // The surfaces with equal weights ask for a shift of 10 deviations, the refined ones for none.
+  const auto of = [](bool is_refined, double sigmas) {
+    std::vector<LinkCheck> links;
+    for (std::size_t i = 0; i + 1 < 6; ++i) {
+      links.push_back(link(i, i + 1, diagonalBound(0.01, 0.001)));
+      links.back().refined = is_refined;
+      links.back().shift = 0.3;
+      links.back().deviation = 0.03;
+      links.back().pull(1) = (i % 2 == 0 ? 1 : -1) * 0.01 * sigmas;
+    }
+    return *bounded(line(6), mapOf(6, links)).scans[5].bound;
+  };
+  EXPECT_NEAR(of(false, 0) / of(true, 0), 10, 1e-6);
+  EXPECT_NEAR(of(true, 1), of(true, 0), 0.2 * of(true, 0)) << "within their covariance";
+  EXPECT_GT(of(true, 10), 3 * of(true, 0));
 }
 
 TEST(PoseBounds, AreNoneIfTheFirstScanIsNotTied)

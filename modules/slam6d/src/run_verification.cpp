@@ -143,6 +143,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   options.num_threads = num_threads_;
   options.sharing = sharing_;
   options.is_kept = is_kept;
+  options.refined = are_refined_;
   for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);

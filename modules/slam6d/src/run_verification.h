@@ -40,6 +40,13 @@ public:
     frames_ = frames;
   }
 
+  /** \param[in] are_refined the matches are refined */
+  void
+  setRefined(bool are_refined)
+  {
+    are_refined_ = are_refined;
+  }
+
   /** Adds the new scans. After an exception of the report, the next call continues.
    * \param[in] reduced, measured of all scans; reduced is kept by reference, measured is needed
    * only for scans owned by this process
@@ -95,6 +102,7 @@ private:
   explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map) const;
 
   unsigned int num_threads_;
+  bool are_refined_ = false;
   WorkSharing* sharing_ = nullptr;
   std::vector<Eigen::Matrix<double, 6, 6>> frames_;
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals

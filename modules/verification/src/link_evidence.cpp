@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calibration.h"
 #include "evidence_parts.h"
+#include "refined_fit.h"
 #include "surface_pairs.h"
 
 #include <pcl6d/registration/reduced_scans.h>
@@ -219,15 +220,23 @@ linkEvidence(const VerifiedScan& first,
   return evidence;
 }
 
+void
+refineEvidence(const VerifiedScan& first,
+               const VerifiedScan& second,
+               LinkEvidence& evidence)
+{
+  evidence.refined = refinedFit(
+      first, second, evidence.T_first_second, optionsOf(evidence.voxel, kPairedPoints));
+}
+
 namespace {
 /** \return the matrix from a small motion about the centroid of the pairs, in the frame of the
  * first scan, to a motion about the second scan's origin in its axes */
 Eigen::Matrix<double, 6, 6>
-intoSecondScan(const LinkEvidence& evidence)
+intoSecondScan(const LinkEvidence& evidence, const SurfaceFit& fit)
 {
   const Eigen::Matrix3d R = evidence.T_first_second.linear().transpose();
-  const Eigen::Vector3d arm =
-      evidence.T_first_second.translation() - evidence.fit.centroid;
+  const Eigen::Vector3d arm = evidence.T_first_second.translation() - fit.centroid;
   Eigen::Matrix3d cross;
   cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
@@ -256,9 +265,11 @@ linkCheck(std::size_t from,
   link.deviation = evidence.deviation();
   link.open_directions = evidence.fit.open_directions;
   link.rejection = test_result.rejection;
-  const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence);
-  link.covariance = J * evidence.fit.pose_covariance * J.transpose();
-  link.pull = J * evidence.fit.step;
+  const SurfaceFit& of_pose = evidence.refined ? *evidence.refined : evidence.fit;
+  const Eigen::Matrix<double, 6, 6> J = intoSecondScan(evidence, of_pose);
+  link.covariance = J * of_pose.pose_covariance * J.transpose();
+  link.pull = J * of_pose.step;
+  link.refined = evidence.refined.has_value();
   return link;
 }
 

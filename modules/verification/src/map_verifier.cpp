@@ -32,7 +32,7 @@ template <typename Archive>
 void
 packFields(Archive& archive, LinkEvidence& evidence)
 {
-  archive(evidence.sight, evidence.fit, evidence.T_first_second);
+  archive(evidence.sight, evidence.fit, evidence.refined, evidence.T_first_second);
   archive(evidence.voxel, evidence.abstained, evidence.off_centre);
 }
 
@@ -359,6 +359,8 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
         const auto [a, b] = pairs[k];
         evidence_[k] = linkEvidence(
             scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
+        if (options_.refined)
+          refineEvidence(scans_[a], scans_[b], evidence_[k]);
       });
   MapVerification map;
   map.scans.resize(scans_.size());

@@ -2,7 +2,6 @@
 #include "surface_directions.h"
 
 #include <pcl6d/common/decompositions.h>
-#include <pcl6d/registration/localizability.h>
 
 #include <cmath>
 
@@ -53,25 +52,26 @@ verification::extentOf(const std::vector<SurfacePair>& pairs)
 
 verification::FitDirections
 verification::directionsOf(const std::vector<SurfacePair>& pairs,
-                           const PairExtent& extent)
+                           const PairExtent& extent,
+                           double open)
 {
   Matrix6 H = Matrix6::Zero();
   Twist b = Twist::Zero();
+  double count = 0;
   for (const SurfacePair& pair : pairs) {
     const Twist j = jacobianOf(pair.place, pair.normal, extent.centroid);
-    H += j * j.transpose();
-    b += pair.residual * j;
+    H += pair.weight * j * j.transpose();
+    b += pair.weight * pair.residual * j;
+    count += pair.weight;
   }
   Matrix6 unit = Matrix6::Identity(); // turns as motions of the pairs
   unit.bottomRightCorner<3, 3>() = unitTurns(pairs, extent);
-  const auto count = static_cast<double>(pairs.size());
   const auto eigen = symmetricEigen<6>(Matrix6(unit * H * unit / count));
   FitDirections directions;
   directions.axes = unit * eigen.vectors;
   directions.mean_square = eigen.values;
   for (int k = 0; k < 6; ++k)
-    directions.inverse(k) =
-        eigen.values(k) < Localizability::kOpen ? 0 : 1 / (eigen.values(k) * count);
+    directions.inverse(k) = eigen.values(k) < open ? 0 : 1 / (eigen.values(k) * count);
   directions.step = directions.inverse.cwiseProduct(directions.axes.transpose() * b);
   return directions;
 }

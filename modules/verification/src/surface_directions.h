@@ -3,6 +3,8 @@
 
 #include "surface_covariance.h"
 
+#include <pcl6d/registration/localizability.h>
+
 /** \file How pairs of surfaces fix the directions of motion. */
 namespace pcl6d::verification {
 
@@ -37,8 +39,11 @@ struct FitDirections {
   }
 };
 
-/** \return the directions of the pairs; an open direction takes no step */
+/** \return the directions of the pairs; an open direction takes no step
+ * \param[in] open mean square cosine below which a direction is open */
 FitDirections
-directionsOf(const std::vector<SurfacePair>& pairs, const PairExtent& extent);
+directionsOf(const std::vector<SurfacePair>& pairs,
+             const PairExtent& extent,
+             double open = Localizability::kOpen);
 
 } // namespace pcl6d::verification

@@ -39,12 +39,13 @@ struct Facing {
   /** In the frame of the first scan. Opposite direction: the point of the first scan moves, the
    * second stays. */
   SurfacePair
-  pair(const PairDirection& way, double missing) const
+  pair(const PairDirection& way, double missing, double missing_other) const
   {
     return {way.T_first_in * (way.is_forward ? place : partner),
             way.T_first_in.linear() * normal,
             way.T_first_in.linear() * other,
-            way.is_forward ? missing : -missing};
+            way.is_forward ? missing : -missing,
+            way.is_forward ? missing_other : -missing_other};
   }
 };
 
@@ -80,9 +81,11 @@ pairEvenly(const PairDirection& way,
   const auto limit_sq = static_cast<float>(options.max_distance * options.max_distance);
   for (std::size_t i = stride / 2; i < count; i += stride) {
     ++found.looked_at;
-    if (const auto facing = facingOf(way, i, limit_sq))
+    if (const auto facing = facingOf(way, i, limit_sq)) {
+      const Eigen::Vector3d offset = facing->partner - facing->place;
       found.pairs.push_back(
-          facing->pair(way, facing->normal.dot(facing->partner - facing->place)));
+          facing->pair(way, facing->normal.dot(offset), facing->other.dot(offset)));
+    }
   }
 }
 
@@ -113,7 +116,8 @@ pairFacing(const PairDirection& way,
     const bool is_one_plane =
         facing->normal.dot(facing->other) > kOnePlane &&
         std::max(std::abs(missing), std::abs(missing_other)) < max_distance;
-    const SurfacePair pair = facing->pair(way, 0.5 * (missing + missing_other));
+    const SurfacePair pair = facing->pair(
+        way, 0.5 * (missing + missing_other), 0.5 * (missing + missing_other));
     if ((is_near || is_one_plane) && motion.isFixedBy(pair.place, pair.normal))
       pairs.push_back(pair);
   }

@@ -17,8 +17,10 @@ struct SurfacePair {
   /** unit, of the other point, from the points of the other scan: its error is independent of the
    * error of `normal` */
   Eigen::Vector3d other_normal;
-  double residual;   ///< [m] distance to the partner along the normal
-  double copies = 1; ///< number of equal pairs that stand for one
+  double residual;       ///< [m] distance to the partner along the normal
+  double other_residual; ///< [m] the same along `other_normal`
+  double copies = 1;     ///< number of equal pairs that stand for one
+  double weight = 1;     ///< of the squared distance
 };
 
 /** \brief The result of pairSurfaces(). */

@@ -45,6 +45,39 @@ measures(const LinkCheck& link, const MapVerification& map)
          map.scans[link.from].tied && map.scans[link.to].tied;
 }
 
+/** Squared errors of links, per degree of freedom: the median by chance (chi2 with 6 degrees: 5.348),
+ * and the largest in 99.9 % of the links (22.46). */
+constexpr double kMedianOfChance = 5.348 / 6, kLargestOfChance = 22.46 / 6;
+
+bool
+isOfRefinedLinks(const MapVerification& map)
+{
+  return std::any_of(map.links.begin(), map.links.end(), [](const LinkCheck& link) {
+    return link.refined;
+  });
+}
+
+/** \return the squared shift that the surfaces of a link ask for, in standard deviations */
+double
+squaredSigmasOf(const LinkCheck& link)
+{
+  if (link.refined)
+    return link.pull.dot(solveSymmetric<6>(link.covariance, link.pull)) / 6;
+  const double sigmas = link.shift / link.deviation;
+  return sigmas * sigmas;
+}
+
+/** \return the factor on the covariance of a link. Among refined links, those with equal weights are
+ * links whose surfaces leave a motion nearly open, or whose pairs found no rest: each counts with the
+ * shift that it asks for. */
+double
+ownFactorOf(const LinkCheck& link, bool are_refined)
+{
+  return are_refined && !link.refined && link.deviation > 0
+             ? std::max(1.0, squaredSigmasOf(link))
+             : 1;
+}
+
 /** \return the graph of the scans connected with the first scan */
 PoseGraph
 graphOf(const std::vector<Eigen::Isometry3d>& poses,
@@ -55,6 +88,7 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
   for (const LinkCheck& link : map.links)
     if (measures(link, map))
       joined.join(link.from, link.to);
+  const bool are_refined = isOfRefinedLinks(map);
   std::vector<std::size_t> vertex(poses.size());
   PoseGraph graph;
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -70,7 +104,8 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
       measured.to = vertex[link.to];
       measured.T_from_to =
           poses[link.from].inverse() * poses[link.to] * motionFromTwist(link.pull);
-      const Matrix6 information = inverted<6>(link.covariance);
+      const Matrix6 information =
+          inverted<6>(Matrix6(ownFactorOf(link, are_refined) * link.covariance));
       measured.information = 0.5 * (information + information.transpose());
       graph.links.push_back(measured);
     }
@@ -80,19 +115,21 @@ graphOf(const std::vector<Eigen::Isometry3d>& poses,
 /** \param[in] scans of the graph \return mean squared shift required by surfaces, in standard
  * deviations: above 1 the links' covariances are too small (a posteriori variance factor of
  * geodesy). Weakly constrained scans keep moving in one direction when surface shifts are
- * followed, which no cycle reveals. */
+ * followed, which no cycle reveals. Shifts of refined maps count up to the largest by chance: links
+ * of a few scans that agree on a larger one show an error of the map, the way to the optimum. */
 double
 varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& scans)
 {
   std::vector<bool> is_in_graph(map.scans.size(), false);
   for (const std::size_t i : scans)
     is_in_graph[i] = true;
+  const bool are_refined = isOfRefinedLinks(map);
   double sum = 0;
   std::size_t links = 0;
   for (const LinkCheck& link : map.links)
     if (is_in_graph[link.from] && measures(link, map) && link.deviation > 0) {
-      const double sigmas = link.shift / link.deviation;
-      sum += sigmas * sigmas;
+      const double square = squaredSigmasOf(link);
+      sum += are_refined ? std::min(square, kLargestOfChance) : square;
       ++links;
     }
   return links > 0 ? sum / static_cast<double>(links) : 1;
@@ -101,7 +138,8 @@ varianceFactorOf(const MapVerification& map, const std::vector<std::size_t>& sca
 /** \return the factor on the covariances from the links. Reasons: cycles do not close, surfaces
  * require larger shifts than the covariances allow, and links of a scan share its errors: m links
  * of a scan have the information of sqrt(m) independent links, which fits the NEES of simulated
- * scenes. */
+ * scenes. What is left of the errors of refined links lies in the planes of a scan, equal in all of its links, and closes every
+ * cycle: m links have the information of one. */
 double
 excessOf(const PoseGraphResult& result,
          std::size_t links,
@@ -115,8 +153,54 @@ excessOf(const PoseGraphResult& result,
       conditions > unknowns
           ? result.chi2_after / static_cast<double>(conditions - unknowns)
           : 1;
+  const double shared = std::max(1.0, links_per_pose);
   return std::max({1.0, unclosed, varianceFactorOf(map, scans)}) *
-         std::sqrt(std::max(1.0, links_per_pose));
+         (isOfRefinedLinks(map) ? shared : std::sqrt(shared));
+}
+
+/** Rounds of weights: each finds links hidden behind larger errors. */
+constexpr int kRoundsOfWeights = 3;
+
+/** \return the squared error of each link in its covariance, per degree of freedom */
+std::vector<double>
+squaredErrors(const std::vector<PoseLink>& links,
+              const std::vector<Eigen::Isometry3d>& poses)
+{
+  std::vector<double> squares;
+  for (const PoseLink& link : links) {
+    const Twist error = smallMotion(link.T_from_to.inverse() *
+                                    poses[link.from].inverse() * poses[link.to]);
+    squares.push_back(error.dot(link.information * error) / 6);
+  }
+  return squares;
+}
+
+/** Lets refined links that contradict the others count with the error that they show (the Danish
+ * method of geodesy: T. Krarup, J. Juhl, K. Kubik, "Goetterdaemmerung over least squares
+ * adjustment", ISPRS 1980). Pairs of few surfaces come to rest elsewhere, off by hundreds of their
+ * deviations: one such link would widen the bounds of the whole map. */
+void
+discountContradictions(const MapVerification& map,
+                       const PoseGraphOptions& options,
+                       PoseGraph& graph)
+{
+  if (!isOfRefinedLinks(map))
+    return;
+  const std::vector<PoseLink> given = graph.links;
+  for (int round = 0; round < kRoundsOfWeights; ++round) {
+    PoseGraphOptimizer optimizer(graph, options);
+    const std::vector<double> squares =
+        squaredErrors(given, optimizer.optimize().poses);
+    std::vector<double> sorted = squares;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double usual = std::max(1.0, *middle / kMedianOfChance);
+    for (std::size_t k = 0; k < given.size(); ++k)
+      graph.links[k].information =
+          squares[k] > kLargestOfChance * usual
+              ? PoseInformation(given[k].information * (usual / squares[k]))
+              : given[k].information;
+  }
 }
 
 /** \return the squared Mahalanobis length of a small motion, per degree of freedom */
@@ -199,6 +283,7 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
   PoseGraphOptions options;
   options.num_threads = num_threads;
   const std::size_t links = graph.links.size();
+  discountContradictions(map, options, graph);
   PoseGraphOptimizer optimizer(std::move(graph), options);
   const PoseGraphResult& best = optimizer.optimize();
   std::vector<Matrix6> covariances;
@@ -238,9 +323,10 @@ linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
   PoseGraph graph = graphOf(T_world_scan, map, scans);
   if (scans.size() < 2)
     return all;
-  all.links = graph.links;
   PoseGraphOptions options;
   options.num_threads = num_threads;
+  discountContradictions(map, options, graph);
+  all.links = graph.links;
   PoseGraphOptimizer optimizer(std::move(graph), options);
   const PoseGraphResult& best = optimizer.optimize();
   const double excess = excessOf(best, all.links.size(), scans, map);

@@ -41,14 +41,19 @@ areNormalsUncertain(double line_spacing, double voxel)
   return kMostLinesOfVoxel * line_spacing >= voxel;
 }
 
+bool
+isRefined(const IcpOptions& options)
+{
+  return options.metric == Metric::kGicp && options.robust == RobustKernel::kNone;
+}
+
 void
 refineMatch(const IcpTarget& target,
             const IcpSource& source,
             const IcpOptions& options,
             IcpResult& found)
 {
-  if (options.metric != Metric::kGicp || options.robust != RobustKernel::kNone ||
-      found.status != Status::kOk || !isFixed(found))
+  if (!isRefined(options) || found.status != Status::kOk || !isFixed(found))
     return;
   IcpOptions refining = options;
   refining.gicp_epsilon = std::min(options.gicp_epsilon, IcpOptions().gicp_epsilon);

@@ -11,6 +11,10 @@ namespace pcl6d::slam6d {
 PCL6D_EXPORTS bool // exported for its test
 areNormalsUncertain(double line_spacing, double voxel);
 
+/** \return whether refineMatch() changes matches with these options */
+bool
+isRefined(const IcpOptions& options);
+
 /** \brief Matches once more from the pose at rest, with the covariances of planes of the paper, and
  * less weight for pairs whose planes lie apart. Between lines that lie far apart, patches of normals
  * cover floor and wall, or a car and the street: their planes are none, and pull the match away.

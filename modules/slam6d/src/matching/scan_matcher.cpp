@@ -180,6 +180,13 @@ ScanMatcher::isWithinPairDistance(const ScanResult& scan,
          scan.correction <= parameters_.max_distance.value;
 }
 
+bool
+ScanMatcher::refines() const
+{
+  return isRefined(icpOptions(0)) &&
+         areNormalsUncertain(parameters_.line_spacing.value, parameters_.voxel.value);
+}
+
 IcpResult
 ScanMatcher::matchPoints(const IcpTarget& target,
                          const IcpModel& points,
@@ -187,7 +194,7 @@ ScanMatcher::matchPoints(const IcpTarget& target,
 {
   const IcpOptions options = icpOptions(points.points().size());
   IcpResult found = icp(target, points.source(), guess, options);
-  if (areNormalsUncertain(parameters_.line_spacing.value, parameters_.voxel.value))
+  if (refines())
     refineMatch(target, points.source(), options, found);
   matchBalanced(target, points.source(), options, found);
   return found;

@@ -81,6 +81,10 @@ public:
   void
   takeIn(const IcpModel& points, const MeasuredScan& measured, const ScanResult& scan);
 
+  /** \return whether matches at rest are refined, see refineMatch() */
+  bool
+  refines() const;
+
   /** \return the options of models; normals: also for the metric without normals */
   IcpModel::Options
   modelOptions(bool normals) const;

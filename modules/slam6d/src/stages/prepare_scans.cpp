@@ -59,6 +59,7 @@ class PrepareScans : public Stage {
     if (options.verify || !options.control.points.empty() || options.leave_out_moving ||
         state.isWithoutSequence() || isRecovering(options)) {
       state.verification.setFrames(state.scans.frames());
+      state.verification.setRefined(state.map->matcher().refines());
       state.verification.prepare(state.scans.reduced(),
                                  state.scans.measured(),
                                  state.map->matcher().modelOptions(true),

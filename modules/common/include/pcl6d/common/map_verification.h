@@ -60,6 +60,7 @@ struct LinkCheck {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   /** correction of the second scan's pose that the surfaces ask for, in the frame of covariance */
   Eigen::Matrix<double, 6, 1> pull = Eigen::Matrix<double, 6, 1>::Zero();
+  bool refined = false; ///< covariance and pull are those of refined matches
   std::optional<NoticedError> noticed; ///< of tested good links
 };
 

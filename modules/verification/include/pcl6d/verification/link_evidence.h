@@ -20,6 +20,8 @@ struct LinkEvidence {
   SightEvidence sight; ///< points of each scan against the other's rays; empty if both
                        ///< scans' rays are unusable
   SurfaceFit fit;      ///< of the surfaces, after a few steps towards their best fit
+  /** of the surfaces with the weights of refined matches; none unless asked for */
+  std::optional<SurfaceFit> refined;
   Eigen::Isometry3d T_first_second = Eigen::Isometry3d::Identity(); ///< tested pose
   double voxel = 0;        ///< [m] of the coarser scan
   bool abstained = false;  ///< rays of a scan are unusable
@@ -47,6 +49,15 @@ linkEvidence(const VerifiedScan& first,
              const Eigen::Isometry3d& T_first_second,
              std::vector<Contradiction>* contradictions = nullptr);
 
+/** \brief Adds LinkEvidence::refined: where many normals belong to no surface, pairs of equal planes
+ * count, and pairs whose planes lie apart lose their weight, as in refined matches. None if the
+ * motion to rest is longer than the pair distance, or does not end, or surfaces leave it open.
+ * \note Source: share/doc/trust.md, Refined links */
+void
+refineEvidence(const VerifiedScan& first,
+               const VerifiedScan& second,
+               LinkEvidence& evidence);
+
 /** \brief Counts each contradicted isolated object as a single patch.
  *
  * The patches of an object are not independent: a person who walked on between two scans covers
@@ -68,7 +79,8 @@ struct LinkTestResult {
 
 /** \brief A tested link of a map, in plain data. The covariance is taken from the surfaces, with a
  * quarter of the error common to all pairs: many links determine a pose more accurately than the
- * test of a single link may assume; see share/doc/trust.md. */
+ * test of a single link may assume; see share/doc/trust.md. With LinkEvidence::refined, covariance
+ * and pull are of this fit. */
 LinkCheck
 linkCheck(std::size_t from,
           std::size_t to,

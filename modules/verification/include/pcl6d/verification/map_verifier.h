@@ -33,6 +33,9 @@ struct MapVerifierOptions {
   /** for each scan: could not be matched, and its pose is a prediction. Its links are tested, but
    * the scan does not count as connected; empty: no scan */
   std::vector<bool> unregistered;
+  /** matches were refined, as between lines of a scan that lie far apart: LinkCheck::pull and
+   * covariance are those of refined links, see refineEvidence(); changes no verdict */
+  bool refined = false;
   /** displaces the most certain link of each scan, to find the detectable shift */
   bool probe = true;
   /** asked whether the map is kept, given for each scan whether it is connected. If not, the

@@ -47,6 +47,10 @@ namespace {
 /** Number of nearest scans that are candidates for links of a scan. */
 constexpr std::size_t kAsked = 12;
 
+/** Number of scans searched for a second pose at a time, independent of the number of threads: a map
+ * of which one is ambiguous is searched no further. */
+constexpr std::size_t kSearchedAtATime = 8;
+
 /** Number of sampled points of a scan to estimate how informative a link is. */
 constexpr std::size_t kAskedPoints = 300;
 
@@ -238,21 +242,53 @@ MapVerifier::fitsElsewhere(std::size_t scan,
   return confirmed_there >= kTwinShare * confirmed_here;
 }
 
-/** Finds second poses of scans placed without a prior pose, where good links are possible at all. */
+/** \return connected scans placed without a prior pose, the least certain first: those with the least
+ * common surface in their most certain link */
+std::vector<std::size_t>
+MapVerifier::unsureScans(const MapVerification& map) const
+{
+  std::vector<std::pair<std::size_t, std::size_t>> unsure; // patches, scan
+  for (std::size_t i = 0; i < scans_.size(); ++i) {
+    if (!options_.unsure[i] || !map.scans[i].tied || scans_[i].abstains())
+      continue;
+    const LinkCheck* most = surestLinkOf(i, map);
+    unsure.emplace_back(most ? most->patches : 0, i);
+  }
+  std::sort(unsure.begin(), unsure.end());
+  std::vector<std::size_t> order;
+  for (const auto& [patches, scan] : unsure)
+    order.push_back(scan);
+  return order;
+}
+
+/** Finds second poses of scans placed without a prior pose, where good links are possible at all and
+ * as long as the verdict depends on them: a few scans at a time, until one has a second pose. The rest
+ * is marked as not searched for. */
 void
 MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
                        MapVerification& map) const
 {
   if (map.background > kMostBackground)
     return; // rays are inconclusive
-  std::vector<Rejection> doubts(scans_.size());
-  sharedFor(options_.sharing, options_.num_threads, doubts, [&](std::size_t i) {
-    if (options_.unsure[i] && map.scans[i].tied && !scans_[i].abstains())
-      doubts[i] = twinOf(i, poses, map);
-  });
-  for (std::size_t i = 0; i < doubts.size(); ++i)
-    if (doubts[i])
-      map.scans[i].doubt = doubts[i];
+  const std::vector<std::size_t> unsure = unsureScans(map);
+  bool is_decided =
+      verification::MapDoubts(scans_, names_, test_results_).isDoubtful(map);
+  for (std::size_t begin = 0; begin < unsure.size(); begin += kSearchedAtATime) {
+    std::vector<Rejection> doubts(std::min(kSearchedAtATime, unsure.size() - begin));
+    const auto place = [&](std::size_t k) { return unsure[begin + k]; };
+    if (!is_decided)
+      sharedFor(
+          options_.sharing, options_.num_threads, doubts, place, [&](std::size_t k) {
+            doubts[k] = twinOf(place(k), poses, map);
+          });
+    else
+      doubts.assign(doubts.size(), RejectReason::kSecondPoseNotSought);
+    for (std::size_t k = 0; k < doubts.size(); ++k)
+      if (doubts[k]) {
+        map.scans[place(k)].doubt = doubts[k];
+        is_decided = true;
+      }
+  }
 }
 
 /** Finds a second pose of a scan, relative to the scan before and to the scan with the largest
@@ -341,6 +377,32 @@ MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) co
   }
 }
 
+/** Tests the links, except for those known from the verdict before. */
+void
+MapVerifier::collectEvidence(const std::vector<Pair>& pairs,
+                             const std::vector<Eigen::Isometry3d>& poses)
+{
+  evidence_.assign(pairs.size(), {});
+  const auto later = [&](std::size_t k) { return pairs[k].second; };
+  sharedFor(
+      options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        const Eigen::Isometry3d T = poses[a].inverse() * poses[b];
+        const LinkEvidence* known = nullptr;
+        if (options_.memory)
+          if (const auto found = options_.memory->find(pairs[k]);
+              found != options_.memory->end() &&
+              found->second.T_first_second.matrix() == T.matrix())
+            known = &found->second;
+        evidence_[k] = known ? *known : linkEvidence(scans_[a], scans_[b], T);
+      });
+  if (!options_.memory)
+    return;
+  options_.memory->clear();
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    options_.memory->emplace(pairs[k], evidence_[k]);
+}
+
 MapVerification
 MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
 {
@@ -352,14 +414,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     if (!isRigid(T_world_scan[i]))
       throw BadArgument(names_[i] + ": the pose is not a rigid motion");
   const std::vector<Pair> pairs = choosePairs(T_world_scan);
-  evidence_.assign(pairs.size(), {});
-  const auto later = [&](std::size_t k) { return pairs[k].second; };
-  sharedFor(
-      options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
-        const auto [a, b] = pairs[k];
-        evidence_[k] = linkEvidence(
-            scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
-      });
+  collectEvidence(pairs, T_world_scan);
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);

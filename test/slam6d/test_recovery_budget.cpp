@@ -29,10 +29,10 @@ scansWithLost(std::size_t count, std::size_t every)
 }
 
 RecoveryBudget
-budgetOf(const std::vector<ScanResult>& scans, bool is_searched = true)
+budgetOf(const std::vector<ScanResult>& scans)
 {
   RecoveryBudget budget;
-  budget.begin(scans, is_searched);
+  budget.begin(scans);
   return budget;
 }
 } // namespace
@@ -56,9 +56,6 @@ TEST(RecoveryBudget, BeginsWithTheSearchesThatFailed)
     const RecoveryBudget budget = budgetOf(scans);
     EXPECT_EQ(budget.left(), std::max(kLeast, 2 * registered) - kSearch * in_vain);
     EXPECT_EQ(budget.leftOut().searches, lost - in_vain);
-    EXPECT_EQ(budgetOf(scans, false).left(),
-              std::max(kLeast, 2 * registered) - 3 * lost)
-        << "a start that another follows makes no long search";
   }
 }
 
@@ -106,7 +103,7 @@ TEST(RecoveryBudget, NotesWhatItDoesNotPayFor)
   EXPECT_TRUE(budget.leftOut().is_second_look);
   budget.leaveOut(4);
   EXPECT_EQ(budget.leftOut().scans, 4U);
-  budget.begin(scansWithLost(20, 1000), true); // another run with more scans
+  budget.begin(scansWithLost(20, 1000)); // another run with more scans
   EXPECT_FALSE(budget.leftOut().is_second_look);
   EXPECT_EQ(budget.leftOut().scans + budget.leftOut().pairs, 0U);
   EXPECT_EQ(budget.left(), kLeast);

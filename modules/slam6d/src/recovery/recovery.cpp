@@ -232,7 +232,7 @@ Recovery::find(std::size_t scan, const std::vector<ScanResult>& scans)
                      options);
   if (place.accepted)
     return Found{place.T_world_scan, RecoveredBy::kSearch};
-  return searches_everywhere_ ? findEverywhere(scan, scans) : std::nullopt;
+  return findEverywhere(scan, scans);
 }
 
 std::optional<Eigen::Isometry3d>

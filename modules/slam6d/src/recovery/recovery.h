@@ -108,14 +108,6 @@ public:
   const PlaceableScan&
   placeable(std::size_t scan);
 
-  /** \brief Sets whether find() searches without a prediction, too. Not while a start is tried that
-   * another start follows: place recognition then compares all lost scans at once. */
-  void
-  setSearchesEverywhere(bool searches)
-  {
-    searches_everywhere_ = searches;
-  }
-
   /** \return what a bounded run may still spend */
   RecoveryBudget&
   budget()
@@ -157,7 +149,6 @@ private:
       usual_; ///< with the scan before, at the last pose
   PairMemory pairs_;
   RecoveryBudget budget_;
-  bool searches_everywhere_ = true;
 };
 
 } // namespace pcl6d::slam6d

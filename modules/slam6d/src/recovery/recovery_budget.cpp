@@ -17,10 +17,6 @@ constexpr std::size_t kLeastSearches = 2;
  * in rooms, 6 in a car park). */
 constexpr std::size_t kMatchesOfPlacement = 5;
 
-/** In a start that another follows, a lost scan is matched with the motion before, around its
- * prediction, and with the lost scans before (2 to 4 matches on average). */
-constexpr std::size_t kMatchesOfLost = 3;
-
 /** A run without recovery prepares, relaxes and verifies for each match: at least as long again as the
  * match takes (1.1 to 2.5 times with simulated and recorded sets). The budget is this number of
  * matches for each registered scan, the time of such a run. */
@@ -82,15 +78,13 @@ searchesInVain(const std::vector<ScanResult>& scans)
 }
 
 void
-RecoveryBudget::begin(const std::vector<ScanResult>& scans, bool is_searched)
+RecoveryBudget::begin(const std::vector<ScanResult>& scans)
 {
   const std::size_t in_vain = searchesInVain(scans);
-  const std::size_t lost = countScans(scans, ScanState::kPredicted);
   most_ = std::max(kLeastMatches, kMatchesPerScan * countRegistered(scans));
-  spent_ = is_searched ? kMatchesOfSearch * in_vain : kMatchesOfLost * lost;
+  spent_ = kMatchesOfSearch * in_vain;
   left_out_ = {};
-  if (is_searched)
-    left_out_.searches = lost - in_vain;
+  left_out_.searches = countScans(scans, ScanState::kPredicted) - in_vain;
 }
 
 std::size_t

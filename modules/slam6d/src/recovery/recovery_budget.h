@@ -30,11 +30,9 @@ searchesInVain(const std::vector<ScanResult>& scans);
 class PCL6D_EXPORTS RecoveryBudget { // exported for its test
 public:
   /** \brief Begins anew, with about the time of the rest of the run.
-   * \param[in] scans of the run, matched one by one
-   * \param[in] is_searched long searches were made meanwhile; false: shorter ones, in a start that
-   * another follows */
+   * \param[in] scans of the run, matched one by one */
   void
-  begin(const std::vector<ScanResult>& scans, bool is_searched);
+  begin(const std::vector<ScanResult>& scans);
 
   /** \return [matches] still to be spent */
   std::size_t

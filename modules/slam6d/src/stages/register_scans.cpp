@@ -40,8 +40,6 @@ public:
     PieceMatcher pieces(
         state.options, state.result.parameters, state.scans, state.recovery);
     state.breaks = 0;
-    state.recovery.setSearchesEverywhere(!state.is_order_tried ||
-                                         !isBounded(state.options));
     while (state.next < total && !isOrderHopeless(state) &&
            !context.cancelled.exchange(false)) {
       const std::size_t scan = state.next;

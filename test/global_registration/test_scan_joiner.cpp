@@ -128,6 +128,28 @@ TEST(ScanJoiner, PlacesNoMorePairsThanItMay)
   }
 }
 
+TEST(ScanJoiner, PairsThatTheMemoryKnowsCountAsNoFurtherOnes)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  pcl6d::PairMemory memory;
+  JoinOptions options;
+  options.memory = &memory;
+  options.max_pairs = 2;
+  std::size_t placed = 0;
+  for (int call = 0; call < 4; ++call) {
+    const JoinedScans found = joinScans(scans.all(), options);
+    EXPECT_LE(found.pairs_placed_anew, 2U);
+    EXPECT_GE(found.pairs_placed, placed) << "no less than before";
+    EXPECT_EQ(found.pairs_placed, placed + found.pairs_placed_anew);
+    EXPECT_GT(found.pairs_left_out, 0U);
+    placed = found.pairs_placed;
+  }
+  EXPECT_EQ(placed, 8U);
+}
+
 TEST(ScanJoiner, GivesTheSameBitsForAnyOrderAndAnyNumberOfThreads)
 {
   const RoomScans room;

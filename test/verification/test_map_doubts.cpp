@@ -106,3 +106,29 @@ TEST(MapDoubts, ARightMapIsGoodAndOneScanAloneUnverified)
   one.map.links.clear();
   EXPECT_EQ(one.told().trust, MapTrust::kUnverified);
 }
+
+TEST(MapDoubts, ScansNotSearchedForASecondPlaceAreNamedAfterTheDoubtThatDecided)
+{
+  Ring ring(100);
+  ring.map.scans[7].doubt = RejectReason::kSecondPoseNotSought;
+  ring.contradictBySurfaces(12); // what decided
+  const MapVerification map = ring.told();
+  EXPECT_EQ(map.trust, MapTrust::kDoubtful);
+  ASSERT_EQ(map.doubts.size(), 2U);
+  EXPECT_EQ(map.doubts[0].reason, RejectReason::kScansContradict);
+  EXPECT_EQ(map.doubts[1].reason, RejectReason::kSecondPosesNotSought);
+  EXPECT_EQ(map.doubts[1].measured, 1);
+  EXPECT_EQ(map.doubts[1].text, "scan7");
+}
+
+TEST(MapDoubts, AreKnownBeforeSecondPlaces)
+{
+  const auto isDoubtful = [](const Ring& ring) {
+    return MapDoubts(ring.scans, ring.names, ring.test_results).isDoubtful(ring.map);
+  };
+  Ring few(100), many(100);
+  few.contradictBySurfaces(11);
+  EXPECT_FALSE(isDoubtful(few));
+  many.contradictBySurfaces(12);
+  EXPECT_TRUE(isDoubtful(many));
+}

@@ -111,6 +111,25 @@ TEST_F(MapOfARoom, IsNotProbedUnlessItIsKept)
   }
 }
 
+TEST_F(MapOfARoom, TakesOverLinksWithTheSamePoseFromTheVerdictBefore)
+{
+  pcl6d::LinkMemory memory;
+  MapVerifierOptions options;
+  options.memory = &memory;
+  const MapVerification first = verified(roomPoses(), options);
+  EXPECT_EQ(memory.size(), first.links.size());
+  expectSame(verified(roomPoses(), options), first);
+  for (auto& [pair, evidence] : memory)
+    evidence.sight.confirmed_patches = evidence.sight.patches = 7;
+  for (const LinkCheck& link : verified(roomPoses(), options).links)
+    EXPECT_EQ(link.patches, 7U) << "not tested again";
+  Poses moved = roomPoses();
+  moved[1].translation().x() += 1e-12;
+  for (const LinkCheck& link : verified(moved, options).links)
+    EXPECT_EQ(link.patches != 7, link.from == 1 || link.to == 1)
+        << link.from << " and " << link.to;
+}
+
 TEST(MapOfAnEmptyRoom, IsNotSearchedForSecondPosesUnlessItIsKept)
 {
   PillarRoom room; // half a turn maps it to itself

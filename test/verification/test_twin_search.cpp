@@ -342,6 +342,39 @@ TEST(Ambiguity, IsNotLookedForWhereThePlaceWasKnown)
   }
 }
 
+TEST(Ambiguity, IsNotLookedForInAMapThatIsDoubtedAnyway)
+{
+  Scanned scanned(symmetricRoom(),
+                  {pcl6d::poseFromEuler({0.2, -0.4, 0.1}, {0.02, -0.03, 0.5}),
+                   pcl6d::poseFromEuler({1.2, 0.9, 0}, {-0.02, 0.03, 2.0}),
+                   pcl6d::poseFromEuler({-1, 0.5, 0}, {0, 0, -1})});
+  EXPECT_EQ(scanned.verified({false, true, true}).trust, MapTrust::kAmbiguous);
+  scanned.poses[2].translation() += Vector(0.6, 0.5, 0); // a wrong pose
+  const MapVerification map = scanned.verified({false, true, true});
+  EXPECT_EQ(map.trust, MapTrust::kDoubtful);
+  ASSERT_TRUE(map.scans[1].tied);
+  EXPECT_EQ(map.scans[1].doubt.reason, RejectReason::kSecondPoseNotSought);
+  EXPECT_EQ(map.doubts.back().reason, RejectReason::kSecondPosesNotSought);
+}
+
+TEST(Ambiguity, OfOneScanEndsTheSearchAfterAFewMore)
+{
+  Poses poses;
+  for (int i = 0; i < 12; ++i)
+    poses.push_back(pcl6d::poseFromEuler({0.15 * i - 0.9, 0.1 * i - 0.6, 0},
+                                         {0.01, 0.01 * (i % 3), 0.5 * i}));
+  const Scanned scanned(symmetricRoom(), poses);
+  const MapVerification map = scanned.verified(std::vector<bool>(12, true));
+  EXPECT_EQ(map.trust, MapTrust::kAmbiguous);
+  std::size_t named = 0, left_out = 0;
+  for (const auto& scan : map.scans) {
+    named += scan.doubt.reason == RejectReason::kFitsElsewhere ? 1 : 0;
+    left_out += scan.doubt.reason == RejectReason::kSecondPoseNotSought ? 1 : 0;
+  }
+  EXPECT_EQ(left_out, 4U); // eight at a time
+  EXPECT_GE(named, 1U);
+}
+
 TEST(Ambiguity, IsNotLookedForOfAScanBeyondAllNumbers)
 {
   Scanned scanned(symmetricRoom());

@@ -67,6 +67,23 @@ textOf(const StartResult& start, std::size_t total)
          std::to_string(start.connected) + " connected" +
          (start.is_kept ? ", kept" : ", not kept");
 }
+/** \return what a bounded recovery left out, in words; empty: nothing */
+std::string
+textOf(const RecoveryLeftOut& left_out)
+{
+  std::string text;
+  const auto add = [&](bool is_left_out, const std::string& what) {
+    if (is_left_out)
+      text += (text.empty() ? "" : ", ") + what;
+  };
+  add(left_out.searches > 0,
+      "the search around " + text::counted(left_out.searches, "scan"));
+  add(left_out.pairs > 0, text::counted(left_out.pairs, "likely pair") + " of scans");
+  add(left_out.scans > 0, "pairs with " + text::counted(left_out.scans, "lost scan"));
+  add(left_out.is_second_look,
+      "the second registration of what the verdict contradicts");
+  return text;
+}
 } // namespace
 
 std::string
@@ -279,14 +296,17 @@ RunOutput::describeDrive()
 void
 RunOutput::warnOfBoundedRecovery()
 {
-  const std::size_t lost = result_.count(ScanState::kPredicted);
-  if (settings_.slam.recovery != RecoveryEffort::kBounded || lost == 0 ||
-      isWithoutPrior(settings_.slam.initial_guess))
+  if (settings_.slam.recovery != RecoveryEffort::kBounded)
     return;
-  run_.warnings.push_back(text::counted(lost, "scan") + (lost == 1 ? " was" : " were") +
-                          " searched only at the likeliest places; --recovery " +
-                          toString(RecoveryEffort::kThorough) +
-                          " searches everywhere, and takes longer");
+  const std::size_t lost = result_.count(ScanState::kPredicted);
+  if (lost > 0 && !isWithoutPrior(settings_.slam.initial_guess))
+    run_.warnings.push_back(
+        text::counted(lost, "scan") + (lost == 1 ? " was" : " were") +
+        " searched only at the likeliest places; --recovery " +
+        toString(RecoveryEffort::kThorough) + " searches everywhere, and takes longer");
+  const std::string left_out = textOf(result_.left_out);
+  if (!left_out.empty())
+    run_.warnings.push_back("recovery of lost scans left out: " + left_out);
 }
 
 /** Warns of scans for which the overlap search found no unambiguous pose. */

@@ -178,6 +178,9 @@ constexpr ReasonWords kReasons[] = {
     {Reason::kFitsElsewhere,
      "fits-elsewhere",
      "fits as well {metres} m away, turned by {degrees} deg, beside {text}"},
+    {Reason::kSecondPoseNotSought,
+     "second-pose-not-sought",
+     "found by a search, not tested for a second place"},
     {Reason::kScansDisconnected,
      "scans-disconnected",
      "{count:scan} not connected to the rest: {text} ({cause}); better initial poses "
@@ -194,6 +197,10 @@ constexpr ReasonWords kReasons[] = {
      "poses-ambiguous",
      "AMBIGUOUS, two places fit: {causes}; rough initial poses, or scans on the way "
      "between, would decide"},
+    {Reason::kSecondPosesNotSought,
+     "second-poses-not-sought",
+     "{count:scan} found by a search, not tested for a second place, as the map is "
+     "doubted anyway: {text}"},
     {Reason::kOfScans, "of-scans", "{text} ({cause})"},
     {Reason::kScansOffCentre,
      "scans-off-centre",

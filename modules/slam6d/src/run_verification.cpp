@@ -136,7 +136,7 @@ MapVerification
 RunVerification::verdictOn(const std::vector<Verified>& scans,
                            const std::vector<std::string>& names,
                            const MapIsKept& is_kept,
-                           const std::vector<ScanResult>& results) const
+                           const std::vector<ScanResult>& results)
 {
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
@@ -144,6 +144,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   options.sharing = sharing_;
   options.is_kept = is_kept;
   options.refined = are_refined_;
+  options.memory = &links_;
   for (const Verified& scan : scans) {
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);
@@ -165,7 +166,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
  * systematically wrong. */
 void
 RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
-                               MapVerification& map) const
+                               MapVerification& map)
 {
   std::size_t loose = 0, lost = 0;
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -183,12 +184,19 @@ RunVerification::explainDoubts(const std::vector<ScanResult>& scans,
       return; // started without initial poses
     initial.push_back(scan.initial_pose);
   }
-  const std::string mistake = likelyPoseMistake(scans_, initial, num_threads_);
-  if (mistake.empty())
+  const auto isSame = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return a.matrix() == b.matrix();
+  };
+  if (!std::equal(
+          initial.begin(), initial.end(), initial_.begin(), initial_.end(), isSame)) {
+    mistake_ = likelyPoseMistake(scans_, initial, num_threads_);
+    initial_ = std::move(initial);
+  }
+  if (mistake_.empty())
     return;
   map.trust = MapTrust::kDoubtful;
   Rejection& doubt = map.doubts.emplace_back(RejectReason::kPoseMistake);
-  doubt.text = "initial poses: " + mistake;
+  doubt.text = "initial poses: " + mistake_;
 }
 
 } // namespace pcl6d::slam6d

@@ -7,6 +7,7 @@
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/registration/icp_model.h>
 #include <pcl6d/slam6d/slam6d_result.h>
+#include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/verified_scan.h>
 
 #include <deque>
@@ -96,10 +97,10 @@ private:
   verdictOn(const std::vector<Verified>& map,
             const std::vector<std::string>& names,
             const MapIsKept& is_kept,
-            const std::vector<ScanResult>& scans) const;
+            const std::vector<ScanResult>& scans);
 
   void
-  explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map) const;
+  explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map);
 
   unsigned int num_threads_;
   bool are_refined_ = false;
@@ -107,7 +108,10 @@ private:
   std::vector<Eigen::Matrix<double, 6, 6>> frames_;
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals
   std::deque<VerifiedScan> scans_;
-  std::vector<Verified> verified_; ///< the last time
+  std::vector<Verified> verified_;         ///< the last time
+  LinkMemory links_;                       ///< of the last verdict
+  std::vector<Eigen::Isometry3d> initial_; ///< poses last searched for a mistake
+  std::string mistake_;                    ///< of these poses
 };
 
 } // namespace pcl6d::slam6d

@@ -170,7 +170,9 @@ SlamRun::optimize()
   state_.options.given_links = given_links_; // stages may have added links
   if (stages_.empty())
     stages_ = stagesOfRun(added_);
-  return runStages(stages_, state_, context);
+  const bool is_whole = runStages(stages_, state_, context);
+  state_.result.left_out = state_.recovery.budget().leftOut();
+  return is_whole;
 }
 
 void

@@ -103,9 +103,17 @@ MapDoubts::twins(const MapVerification& map) const
 {
   std::vector<Rejection> twins;
   for (std::size_t i = 0; i < scans_.size(); ++i)
-    if (map.scans[i].tied && map.scans[i].doubt)
+    if (map.scans[i].tied && map.scans[i].doubt &&
+        map.scans[i].doubt.reason != RejectReason::kSecondPoseNotSought)
       twins.push_back(withCause(RejectReason::kOfScans, names_[i], map.scans[i].doubt));
   return twins;
+}
+
+/** \return whether a scan is disconnected, though its pose can be tested */
+bool
+MapDoubts::isLoose(std::size_t scan, const MapVerification& map) const
+{
+  return !map.scans[scan].tied && !scans_[scan].isTooSmall();
 }
 
 /** \return whether scans are disconnected */
@@ -116,7 +124,7 @@ MapDoubts::tellLoose(MapVerification& map) const
   Rejection why; // the rejected link, or the link of the first scan
   for (std::size_t i = 0; i < scans_.size(); ++i) {
     ScanCheck& scan = map.scans[i];
-    if (scan.tied || scans_[i].isTooSmall()) // its pose cannot be tested
+    if (!isLoose(i, map))
       continue;
     if (!scan.doubt)
       scan.doubt = reasonFor(i, map);
@@ -166,7 +174,8 @@ MapDoubts::tellContradicted(const std::vector<std::size_t>& links,
     const LinkCheck& link = map.links[k];
     contradicted.push_back(told(link));
     for (const std::size_t i : {link.from, link.to})
-      if (!map.scans[i].doubt)
+      if (!map.scans[i].doubt ||
+          map.scans[i].doubt.reason == RejectReason::kSecondPoseNotSought)
         map.scans[i].doubt = withCause(RejectReason::kContradictsScan,
                                        names_[i == link.from ? link.to : link.from],
                                        link.rejection);
@@ -190,6 +199,27 @@ MapDoubts::tellAbstaining(MapVerification& map) const
   return !abstaining.empty() || !off_centre.empty();
 }
 
+/** Names the scans placed without a prior pose that were not searched for a second pose. */
+void
+MapDoubts::tellNotSought(MapVerification& map) const
+{
+  std::vector<std::string> not_sought;
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (map.scans[i].doubt.reason == RejectReason::kSecondPoseNotSought)
+      not_sought.push_back(names_[i]);
+  if (!not_sought.empty())
+    map.doubts.push_back(aboutScans(RejectReason::kSecondPosesNotSought, not_sought));
+}
+
+bool
+MapDoubts::isDoubtful(const MapVerification& map) const
+{
+  for (std::size_t i = 0; i < scans_.size(); ++i)
+    if (isLoose(i, map))
+      return true;
+  return !against(map, map.background > kMostBackground).proven.empty();
+}
+
 void
 MapDoubts::tell(MapVerification& map) const
 {
@@ -209,6 +239,7 @@ MapDoubts::tell(MapVerification& map) const
     map.doubts.push_back(withCauses(RejectReason::kSingleLinksContradict, outvoted));
   if (!twins.empty())
     map.doubts.push_back(withCauses(RejectReason::kPosesAmbiguous, twins));
+  tellNotSought(map);
   const bool is_unverified = scans_.size() < 2 || abstains || is_silent;
   map.trust = is_loose || !against.proven.empty() ? MapTrust::kDoubtful
               : !twins.empty()                    ? MapTrust::kAmbiguous

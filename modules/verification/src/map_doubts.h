@@ -27,6 +27,11 @@ public:
   void
   tell(MapVerification& map) const;
 
+  /** \return whether tell() finds the map doubtful, whatever second poses there are
+   * \param[in] map as for tell() */
+  bool
+  isDoubtful(const MapVerification& map) const;
+
 private:
   /** Wrong links between connected scans. */
   struct Against {
@@ -36,6 +41,10 @@ private:
 
   std::vector<Rejection>
   twins(const MapVerification& map) const;
+  bool
+  isLoose(std::size_t scan, const MapVerification& map) const;
+  void
+  tellNotSought(MapVerification& map) const;
   bool
   tellLoose(MapVerification& map) const;
   Against

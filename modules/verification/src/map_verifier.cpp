@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "calibration.h"
+#include "links_of_map.h"
 #include "map_doubts.h"
 
-#include <pcl6d/common/angle.h>
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
 #include <pcl6d/common/require.h>
 #include <pcl6d/common/work_sharing.h>
 #include <pcl6d/verification/map_verifier.h>
 #include <pcl6d/verification/ties.h>
-#include <pcl6d/verification/twin_search.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace pcl6d {
-using verification::kMostBackground;
-using verification::kTwinShare;
+using verification::surestLinkOf;
 
 // For transfer to other processes.
 
@@ -92,18 +89,6 @@ spokenOf(const VerifiedScan& rays,
   return spoken;
 }
 
-/** \return the consistent link of a scan with the most common surface; null if none */
-const LinkCheck*
-surestLinkOf(std::size_t scan, const MapVerification& map)
-{
-  const LinkCheck* most = nullptr;
-  for (const LinkCheck& link : map.links)
-    if ((link.from == scan || link.to == scan) && link.trust == LinkTrust::kGood &&
-        (!most || link.patches > most->patches))
-      most = &link;
-  return most;
-}
-
 bool
 isUnregistered(std::size_t scan, const std::vector<bool>& unregistered)
 {
@@ -123,17 +108,6 @@ connectingLinks(std::vector<LinkCheck> links, const std::vector<bool>& unregiste
   return links;
 }
 
-/** \return the index of the link between two scans, which exists */
-std::size_t
-linkBetween(std::size_t scan, std::size_t other, const MapVerification& map)
-{
-  const std::size_t from = std::min(scan, other), to = std::max(scan, other);
-  const auto link =
-      std::find_if(map.links.begin(), map.links.end(), [&](const auto& l) {
-        return l.from == from && l.to == to;
-      });
-  return static_cast<std::size_t>(link - map.links.begin());
-}
 } // namespace
 
 void
@@ -204,89 +178,6 @@ MapVerifier::choosePairs(const std::vector<Eigen::Isometry3d>& poses) const
   return pairs;
 }
 
-/** \return whether a second pose of a scan makes a consistent link with a neighbour, is not
- * contradicted by any other scan with a consistent link, and is confirmed about as much as the
- * present pose, by the neighbour and by all these scans together */
-bool
-MapVerifier::fitsElsewhere(std::size_t scan,
-                           std::size_t beside,
-                           const Eigen::Isometry3d& T_world_scan,
-                           const std::vector<Eigen::Isometry3d>& poses,
-                           const MapVerification& map) const
-{
-  const auto evidenceAt = [&](std::size_t other, const Eigen::Isometry3d& pose) {
-    return linkEvidence(scans_[other], scans_[scan], poses[other].inverse() * pose);
-  };
-  const LinkEvidence there = evidenceAt(beside, T_world_scan);
-  const LinkEvidence& here = evidence_[linkBetween(scan, beside, map)];
-  auto confirmed_there = static_cast<double>(there.sight.confirmed_patches);
-  auto confirmed_here = static_cast<double>(here.sight.confirmed_patches);
-  if (testLink(there, map.background).trust != LinkTrust::kGood ||
-      confirmed_there < kTwinShare * confirmed_here)
-    return false;
-  for (const LinkCheck& link : map.links) {
-    const std::size_t other = link.from == scan ? link.to : link.from;
-    if ((link.from != scan && link.to != scan) || other == beside ||
-        link.trust != LinkTrust::kGood)
-      continue;
-    const LinkEvidence of_other = evidenceAt(other, T_world_scan);
-    if (testLink(of_other, map.background).trust == LinkTrust::kWrong)
-      return false;
-    confirmed_there += static_cast<double>(of_other.sight.confirmed_patches);
-    confirmed_here += static_cast<double>(link.patches - link.contradicted);
-  }
-  return confirmed_there >= kTwinShare * confirmed_here;
-}
-
-/** Finds second poses of scans placed without a prior pose, where good links are possible at all. */
-void
-MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
-                       MapVerification& map) const
-{
-  if (map.background > kMostBackground)
-    return; // rays are inconclusive
-  std::vector<Rejection> doubts(scans_.size());
-  sharedFor(options_.sharing, options_.num_threads, doubts, [&](std::size_t i) {
-    if (options_.unsure[i] && map.scans[i].tied && !scans_[i].abstains())
-      doubts[i] = twinOf(i, poses, map);
-  });
-  for (std::size_t i = 0; i < doubts.size(); ++i)
-    if (doubts[i])
-      map.scans[i].doubt = doubts[i];
-}
-
-/** Finds a second pose of a scan, relative to the scan before and to the scan with the largest
- * overlap. \return its distance; none: accepted */
-Rejection
-MapVerifier::twinOf(std::size_t scan,
-                    const std::vector<Eigen::Isometry3d>& poses,
-                    const MapVerification& map) const
-{
-  std::vector<std::size_t> besides;
-  if (const LinkCheck* most = surestLinkOf(scan, map))
-    besides.push_back(most->from == scan ? most->to : most->from);
-  if (scan > 0 && (besides.empty() || besides.front() != scan - 1))
-    besides.push_back(scan - 1);
-  for (const std::size_t beside : besides) {
-    if (scans_[beside].abstains())
-      continue; // no link with it is good
-    const Eigen::Vector3d up =
-        poses[beside].linear().transpose() * Eigen::Vector3d::UnitZ();
-    for (const Eigen::Isometry3d& T : pcl6d::findTwins(
-             scans_[beside], scans_[scan], poses[beside].inverse() * poses[scan], up)) {
-      const Eigen::Isometry3d place = poses[beside] * T;
-      if (!fitsElsewhere(scan, beside, place, poses, map))
-        continue;
-      const MotionSize way = distanceBetween(poses[scan], place);
-      Rejection second(
-          RejectReason::kFitsElsewhere, way.translation, degrees(way.rotation));
-      second.text = names_[beside];
-      return second;
-    }
-  }
-  return {};
-}
-
 /** Detectable shift of the most certain link of each scan. */
 void
 MapVerifier::probe(const std::vector<Eigen::Isometry3d>& poses,
@@ -341,6 +232,69 @@ MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) co
   }
 }
 
+/** Tests the links, except for those known from the verdict before. */
+void
+MapVerifier::collectEvidence(const std::vector<Pair>& pairs,
+                             const std::vector<Eigen::Isometry3d>& poses)
+{
+  evidence_.assign(pairs.size(), {});
+  const auto later = [&](std::size_t k) { return pairs[k].second; };
+  sharedFor(
+      options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        const Eigen::Isometry3d T = poses[a].inverse() * poses[b];
+        const LinkEvidence* known = nullptr;
+        if (options_.memory)
+          if (const auto found = options_.memory->find(pairs[k]);
+              found != options_.memory->end() &&
+              found->second.T_first_second.matrix() == T.matrix())
+            known = &found->second;
+        evidence_[k] = known ? *known : linkEvidence(scans_[a], scans_[b], T);
+      });
+}
+
+/** Keeps the evidence for the next verdict. */
+void
+MapVerifier::remember(const std::vector<Pair>& pairs)
+{
+  if (!options_.memory)
+    return;
+  options_.memory->clear();
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    options_.memory->emplace(pairs[k], evidence_[k]);
+}
+
+/** Fits the links between connected scans anew, as refined matches do: no further link measures a pose. */
+void
+MapVerifier::refineLinks(MapVerification& map)
+{
+  std::vector<std::size_t> tied;
+  for (std::size_t k = 0; k < map.links.size(); ++k) {
+    const LinkCheck& link = map.links[k];
+    if (map.scans[link.from].tied && map.scans[link.to].tied && !evidence_[k].refined)
+      tied.push_back(k);
+  }
+  std::vector<LinkEvidence> refined;
+  refined.reserve(tied.size());
+  for (const std::size_t k : tied)
+    refined.push_back(evidence_[k]);
+  const auto later = [&](std::size_t k) { return map.links[tied[k]].to; };
+  sharedFor(options_.sharing, options_.num_threads, refined, later, [&](std::size_t k) {
+    const LinkCheck& link = map.links[tied[k]];
+    refineEvidence(scans_[link.from], scans_[link.to], refined[k]);
+  });
+  for (std::size_t k = 0; k < tied.size(); ++k)
+    evidence_[tied[k]] = std::move(refined[k]);
+  for (std::size_t k = 0; k < map.links.size(); ++k) {
+    LinkCheck& link = map.links[k];
+    const LinkCheck anew =
+        linkCheck(link.from, link.to, evidence_[k], test_results_[k]);
+    link.pull = anew.pull;
+    link.covariance = anew.covariance;
+    link.refined = anew.refined;
+  }
+}
+
 MapVerification
 MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
 {
@@ -352,16 +306,7 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     if (!isRigid(T_world_scan[i]))
       throw BadArgument(names_[i] + ": the pose is not a rigid motion");
   const std::vector<Pair> pairs = choosePairs(T_world_scan);
-  evidence_.assign(pairs.size(), {});
-  const auto later = [&](std::size_t k) { return pairs[k].second; };
-  sharedFor(
-      options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
-        const auto [a, b] = pairs[k];
-        evidence_[k] = linkEvidence(
-            scans_[a], scans_[b], T_world_scan[a].inverse() * T_world_scan[b]);
-        if (options_.refined)
-          refineEvidence(scans_[a], scans_[b], evidence_[k]);
-      });
+  collectEvidence(pairs, T_world_scan);
   MapVerification map;
   map.scans.resize(scans_.size());
   map.background = contradictionBackground(evidence_);
@@ -389,6 +334,9 @@ MapVerifier::verify(const std::vector<Eigen::Isometry3d>& T_world_scan)
     findTwins(T_world_scan, map);
   if (options_.probe && !is_brief)
     probe(T_world_scan, map);
+  if (options_.refined && !is_brief)
+    refineLinks(map);
+  remember(pairs);
   verification::MapDoubts(scans_, names_, test_results_).tell(map);
   return map;
 }

@@ -65,6 +65,8 @@ Joiner::run(JoinedScans& result)
   leaveTorn();
   sortGroups();
   result.pairs_placed = placed_.size();
+  result.pairs_placed_anew = num_new_;
+  result.pairs_left_out = left_out_.size();
 }
 
 /** Every pair, or the requested pairs, without pairs with a known relative pose. */
@@ -86,15 +88,21 @@ Joiner::comparedPairs() const
 }
 
 void
-Joiner::place(std::vector<RankedPair> pairs)
+Joiner::place(const std::vector<RankedPair>& pairs)
 {
-  if (const std::size_t most = options_.max_pairs;
-      most > 0 && placed_.size() + pairs.size() > most)
-    pairs.resize(most - std::min(most, placed_.size())); // the likeliest come first
-  for (const auto& one : pairs)
+  std::vector<RankedPair> taken; // the likeliest come first
+  for (const auto& one : pairs) {
+    const bool is_new = !hypotheses_.isKnown(one.scans);
+    if (is_new && options_.max_pairs > 0 && num_new_ >= options_.max_pairs) {
+      left_out_.insert(one.scans);
+      continue;
+    }
+    num_new_ += is_new ? 1 : 0;
     placed_.insert(one.scans);
-  if (!pairs.empty())
-    hypotheses_.add(pairs);
+    taken.push_back(one);
+  }
+  if (!taken.empty())
+    hypotheses_.add(taken);
 }
 
 /** Removes members that have another place in another group, if the two groups were not merged. */

@@ -79,7 +79,7 @@ private:
   std::vector<ScanPlaces>
   comparedPairs() const;
   void
-  place(std::vector<RankedPair> pairs);
+  place(const std::vector<RankedPair>& pairs);
   void
   leaveTorn();
   bool
@@ -139,7 +139,9 @@ private:
   std::vector<RankedPair> ranked_;
   std::set<ScanPlaces> placed_; // pairs
   Grown grown_;
-  int num_competitors_ = 0; // groups grown from all scans by isAnotherPlace()
+  std::size_t num_new_ = 0;       // pairs placed by this run, of a limited number
+  std::set<ScanPlaces> left_out_; // pairs beyond the limit
+  int num_competitors_ = 0;       // groups grown from all scans by isAnotherPlace()
 };
 
 } // namespace pcl6d::global_registration

@@ -39,43 +39,7 @@ constexpr double kDeviations = 3;
 
 /** Largest pair distance at the start of matching [voxels], equal to the default of a run. */
 constexpr double kReachVoxels = 12;
-
-/** A long search takes the time of this many matches (16 to 27 with lidars and cameras). */
-constexpr std::size_t kMatchesOfSearch = 24;
-
-/** Number of long searches without success that are always allowed: a few seconds. */
-constexpr std::size_t kLeastSearches = 2;
-
-/** Matching a pair of scans without prediction takes as long as kMatchesOfPlacement matches (2.5 to
- * 3.5 with lidars and cameras). kLeastPlaced pairs are always allowed: a few seconds. */
-constexpr std::size_t kMatchesOfPlacement = 3, kLeastPlaced = 16;
 } // namespace
-
-std::size_t
-mostPlacedPairs(const std::vector<ScanResult>& scans)
-{
-  const auto registered =
-      static_cast<std::size_t>(std::count_if(scans.begin(), scans.end(), isRegistered));
-  return std::max(kLeastPlaced, registered / kMatchesOfPlacement);
-}
-
-bool
-isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded)
-{
-  const auto is_due = [](std::size_t lost) { // 0, 1, 3, 7, ... in a row
-    return (lost & (lost + 1)) == 0;
-  };
-  std::size_t lost = 0, failed = 0, matched = 0;
-  for (std::size_t i = 0; i < scan; ++i) {
-    if (scans[i].state == ScanState::kPredicted)
-      failed += is_due(lost++) ? 1 : 0;
-    else
-      lost = 0;
-    matched += isRegistered(scans[i]) ? 1 : 0;
-  }
-  return is_due(lost) &&
-         (!is_bounded || failed < std::max(kLeastSearches, matched / kMatchesOfSearch));
-}
 
 bool
 isBounded(const Slam6DOptions& options)
@@ -143,21 +107,24 @@ Recovery::knownAround(std::size_t scan,
 /** \return the evidence of the latest links between consecutive scans, matched at their predicted
  * poses */
 std::vector<LinkEvidence>
-Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) const
+Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans)
 {
   std::vector<std::size_t> seconds;
   for (std::size_t i = scan; i-- > 1 && seconds.size() < kUsualLinks;)
     if (isRegistered(scans[i]) && isRegistered(scans[i - 1]) &&
         scans[i].recovered == RecoveredBy::kNone)
       seconds.push_back(i);
-  std::vector<LinkEvidence> links(seconds.size());
-  parallelFor(links.size(), options_.num_threads, [&](std::size_t k) {
+  usual_.resize(std::max(usual_.size(), scans.size()));
+  parallelFor(seconds.size(), options_.num_threads, [&](std::size_t k) {
     const std::size_t i = seconds[k];
-    links[k] =
-        linkEvidence(verified_[i - 1],
-                     verified_[i],
-                     scans[i - 1].T_world_scan.inverse() * scans[i].T_world_scan);
+    const Eigen::Isometry3d T =
+        scans[i - 1].T_world_scan.inverse() * scans[i].T_world_scan;
+    if (!usual_[i] || usual_[i]->T_first_second.matrix() != T.matrix())
+      usual_[i] = linkEvidence(verified_[i - 1], verified_[i], T);
   });
+  std::vector<LinkEvidence> links;
+  for (const std::size_t i : seconds)
+    links.push_back(*usual_[i]);
   return links;
 }
 
@@ -176,7 +143,7 @@ Recovery::rejectionOf(std::size_t scan,
 }
 
 RayTest
-Recovery::testRays(std::size_t scan, const std::vector<ScanResult>& scans) const
+Recovery::testRays(std::size_t scan, const std::vector<ScanResult>& scans)
 {
   const auto usual = usualBefore(scan, scans);
   if (usual.empty())
@@ -205,7 +172,7 @@ Recovery::seemsContradicted(std::size_t scan,
 GuessOptions
 Recovery::guessOptions(std::size_t scan,
                        const std::vector<ScanResult>& scans,
-                       double deviation) const
+                       double deviation)
 {
   GuessOptions options;
   options.num_threads = options_.num_threads;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "recovery/recovery_budget.h"
+
 #include <pcl6d/common/export.h>
 #include <pcl6d/common/run_result.h>
 #include <pcl6d/global_registration/pair_memory.h>
@@ -19,11 +21,6 @@ namespace pcl6d::slam6d {
 /** \return whether the time of failed searches is limited to about the time of matching */
 bool
 isBounded(const Slam6DOptions& options);
-
-/** \return how many pairs of scans a bounded search matches without prediction: as many as take the
- * time of matching the registered scans, and 16 at least */
-std::size_t
-mostPlacedPairs(const std::vector<ScanResult>& scans);
 
 /** Result of rays on the latest links of a map. */
 enum class RayTest {
@@ -47,14 +44,6 @@ struct RejectedMatch {
  * matches of a short run */
 PCL6D_EXPORTS bool // exported for its test
 isLongSearchUseful(const RejectedMatch& match, RecoveryEffort effort);
-
-/** Long searches are made for the first scans lost in a row, then ever more rarely: if surroundings
- * lack features, most of the next scans lack features, too.
- * \param[in] is_bounded limits the time of failed searches to the time of matching; scans that were
- * not searched for count as failed
- * \return whether to search for a lost scan far from its prediction, too */
-PCL6D_EXPORTS bool // exported for its test
-isSearchDue(std::size_t scan, const std::vector<ScanResult>& scans, bool is_bounded);
 
 /** \brief Recovery of scans without a match at the pose predicted by odometry. Searches by the
  * previous motion, then around the prediction, then without prediction (With a predicted pose, in
@@ -81,7 +70,7 @@ public:
 
   /** \return whether rays confirm a link between previous scans */
   RayTest
-  testRays(std::size_t scan, const std::vector<ScanResult>& scans) const;
+  testRays(std::size_t scan, const std::vector<ScanResult>& scans);
 
   /** \return whether a quick check with few points finds that rays of previous scans pass through
    * the matched scan: a reason for the full test */
@@ -119,6 +108,13 @@ public:
   const PlaceableScan&
   placeable(std::size_t scan);
 
+  /** \return what a bounded run may still spend */
+  RecoveryBudget&
+  budget()
+  {
+    return budget_;
+  }
+
   /** \return the results of all searches of the run among pairs of scans */
   PairMemory&
   pairs()
@@ -138,18 +134,21 @@ private:
               const Eigen::Vector3d& position,
               const std::vector<ScanResult>& scans);
   std::vector<LinkEvidence>
-  usualBefore(std::size_t scan, const std::vector<ScanResult>& scans) const;
+  usualBefore(std::size_t scan, const std::vector<ScanResult>& scans);
   GuessOptions
   guessOptions(std::size_t scan,
                const std::vector<ScanResult>& scans,
-               double deviation) const;
+               double deviation);
   std::optional<Found>
   findEverywhere(std::size_t scan, const std::vector<ScanResult>& scans);
 
   const Slam6DOptions& options_;
   const std::deque<VerifiedScan>& verified_;
   std::deque<std::optional<PlaceableScan>> placeable_; ///< made when first needed
+  std::deque<std::optional<LinkEvidence>>
+      usual_; ///< with the scan before, at the last pose
   PairMemory pairs_;
+  RecoveryBudget budget_;
 };
 
 } // namespace pcl6d::slam6d

@@ -56,7 +56,9 @@ RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
         return !whyInVain(piece);
       });
   JoinedScans joined = nothingJoined(result);
-  if (is_any_searched)
+  if (is_any_searched && isBounded(options_) && recovery_.budget().pairsLeft() == 0)
+    recovery_.budget().leaveOut(askedOf(pieces).size());
+  else if (is_any_searched)
     joined = join(pieces, report, result);
   take(joined, pieces, result);
 }
@@ -157,7 +159,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);
   if (isBounded(options_))
-    join.max_pairs = mostPlacedPairs(result.scans);
+    join.max_pairs = recovery_.budget().pairsLeft();
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));
@@ -168,7 +170,9 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
     if (pieces[p].size() > 1)
       for (const std::size_t i : pieces[p])
         join.known[i] = {p + 1, own_[i].T_world_scan};
-  return joinScans(list, join);
+  const JoinedScans joined = joinScans(list, join);
+  recovery_.budget().spendPairs(joined.pairs_placed_anew, joined.pairs_left_out);
+  return joined;
 }
 
 void

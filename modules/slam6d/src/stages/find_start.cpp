@@ -69,6 +69,7 @@ private:
     const Slam6DResult before = state.result;
     const std::vector<ScanPair> links = state.options.given_links;
     const bool is_whole = tryOrder(state, context);
+    state.recovery.budget().begin(state.result.scans);
     auto& starts = state.result.starts;
     if (is_whole && starts[0].connected == state.size()) {
       starts[0].is_kept = true;

@@ -4,6 +4,7 @@
 #include "recovery/second_look.h"
 #include "stages.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ public:
   StageEnd
   run(SlamState& state, SlamContext& context) override
   {
+    if (isBounded(state.options) &&
+        !state.recovery.budget().spendSecondLook(countRegistered(state.result)))
+      return StageEnd::kReverted;
     const Slam6DResult before = state.result;
     const std::size_t num_connected = countConnected(before);
     disconnect(state.num_of_earlier_run, state.result);
@@ -50,6 +54,14 @@ public:
   }
 
 private:
+  static std::size_t
+  countRegistered(const Slam6DResult& result)
+  {
+    const std::vector<bool> registered = areRegistered(result);
+    return static_cast<std::size_t>(
+        std::count(registered.begin(), registered.end(), true));
+  }
+
   static void
   runAgain(const StageList& stages, SlamState& state, SlamContext& context)
   {

@@ -21,6 +21,8 @@ class RecoverLost : public Stage {
   StageEnd
   run(SlamState& state, SlamContext& context) override
   {
+    if (!state.is_second_look)
+      state.recovery.budget().begin(state.result.scans);
     state.map->recover(
         [&](const Progress& now) {
           context.report({"recovering", now.done, now.total});

@@ -89,12 +89,14 @@ enum class RejectReason {
   kNoCommonSurfaces, ///< no link of the scan has surfaces in common
   kContradictsScan,  ///< text: the other scan, which is connected, too; cause
   kFitsElsewhere, ///< distance to a second pose [m]; turn to it [deg]; text: scan beside
+  kSecondPoseNotSought, ///< found without a prior pose, in a map that is doubted anyway
 
   // a doubt about a map
   kScansDisconnected,     ///< number of scans; text: names; cause, of one of them
   kScansContradict,       ///< number of links; causes: kOfScans, one per link
   kSingleLinksContradict, ///< number of links; causes: kOfScans, one per link
   kPosesAmbiguous,        ///< number of scans; causes: kOfScans, one per scan
+  kSecondPosesNotSought,  ///< number of scans; text: names
   kOfScans,               ///< text: a scan, or the two of a link; cause
   kScansOffCentre,        ///< number of scans; text: names
   kScansNotVerified,      ///< number of scans; text: names

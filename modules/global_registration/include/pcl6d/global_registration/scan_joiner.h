@@ -36,6 +36,8 @@ struct JoinedScans {
    * scans last */
   std::vector<std::vector<std::size_t>> groups;
   std::size_t pairs_compared = 0, pairs_placed = 0;
+  std::size_t pairs_placed_anew = 0; ///< unknown to JoinOptions::memory
+  std::size_t pairs_left_out = 0;    ///< likely pairs beyond JoinOptions::max_pairs
 };
 
 /** \brief The known pose of a scan in a group. */
@@ -49,7 +51,8 @@ struct KnownPlace {
 struct JoinOptions {
   std::size_t pairs_per_scan = 4; ///< largest number of placeScan()
                                   ///< calls / number of scans; > 0
-  /** largest number of placeScan() calls, on the likeliest pairs; 0: no further limit */
+  /** largest number of placeScan() calls, on the likeliest pairs. Pairs that the memory knows cost
+   * none; 0: no further limit */
   std::size_t max_pairs = 0;
   double max_ambiguity = 0.6; ///< second score / score of an accepted pose; in [0, 1]
   /** known pose of each scan in a group. Relative poses within a known group stay fixed. Known

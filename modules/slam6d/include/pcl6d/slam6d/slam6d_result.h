@@ -51,6 +51,15 @@ struct StartResult {
   bool is_kept = false; ///< is in the final result
 };
 
+/** \brief What RecoveryEffort::kBounded left out for scans that lost track. */
+struct RecoveryLeftOut {
+  std::size_t searches = 0; ///< lost scans not searched for far from their prediction
+  std::size_t pairs = 0;    ///< likely pairs of scans not matched without prediction
+  std::size_t scans = 0;    ///< lost scans compared with no other scan
+  bool is_second_look =
+      false; ///< what the verdict contradicts was not registered again
+};
+
 /** \brief The result of Slam6D. */
 struct Slam6DResult {
   std::vector<ScanResult> scans; ///< in the order of addition
@@ -63,6 +72,7 @@ struct Slam6DResult {
   std::vector<ScanLink> links; ///< links and loop candidates, with their verdicts
   /** the links used as measured relative poses, and the final poses */
   PoseGraph graph;
+  RecoveryLeftOut left_out;            ///< by the last optimize()
   std::vector<std::size_t> floating;   ///< scans not connected to the first scan
   std::optional<MovingSummary> moving; ///< at the final poses; none if disabled
   std::optional<MapVerification> verification; ///< of the final poses; none if disabled

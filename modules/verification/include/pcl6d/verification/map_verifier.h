@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +23,18 @@ namespace verification {
 struct Ties;
 }
 
+/** \brief The evidence of the links of a verdict, by the indices of their scans. A further verdict on
+ * the same scans takes over the links whose scans have kept their relative pose, bit by bit. */
+using LinkMemory = std::map<std::pair<std::size_t, std::size_t>, LinkEvidence>;
+
 /** \brief Knobs of MapVerifier. */
 struct MapVerifierOptions {
   /** number of tested links from each scan to earlier scans, in addition to the previous scan: the
    * links with the most informative rays; > 0 */
   std::size_t links_per_scan = 4;
   /** for each scan: registered without a prior pose, e.g. by features, which requires a search for
-   * a second pose; empty: no scan */
+   * a second pose, as long as it decides the verdict: not in a map that is doubted anyway. Scans that
+   * were left out are named; empty: no scan */
   std::vector<bool> unsure;
   /** for each scan: could not be matched, and its pose is a prediction. Its links are tested, but
    * the scan does not count as connected; empty: no scan */
@@ -41,7 +47,8 @@ struct MapVerifierOptions {
   /** asked whether the map is kept, given for each scan whether it is connected. If not, the
    * verifier neither searches for second poses nor probes; empty: the map is kept */
   std::function<bool(const std::vector<bool>& connected)> is_kept;
-  unsigned int num_threads = 0;   ///< 0: one per core; never changes the result
+  LinkMemory* memory = nullptr; ///< of the verdict before on the same scans; null: none
+  unsigned int num_threads = 0; ///< 0: one per core; never changes the result
   WorkSharing* sharing = nullptr; ///< between processes; null: none
   /** \throws BadArgument naming the first invalid field, with its value */
   void
@@ -88,7 +95,16 @@ private:
   void
   checkScans(const verification::Ties& ties, MapVerification& map) const;
   void
+  collectEvidence(const std::vector<Pair>& pairs,
+                  const std::vector<Eigen::Isometry3d>& poses);
+  void
+  remember(const std::vector<Pair>& pairs);
+  void
+  refineLinks(MapVerification& map);
+  void
   findTwins(const std::vector<Eigen::Isometry3d>& poses, MapVerification& map) const;
+  std::vector<std::size_t>
+  unsureScans(const MapVerification& map) const;
   Rejection
   twinOf(std::size_t scan,
          const std::vector<Eigen::Isometry3d>& poses,

@@ -128,7 +128,33 @@ TEST(ScanJoiner, PlacesNoMorePairsThanItMay)
   }
 }
 
-TEST(ScanJoiner, PairsThatTheMemoryKnowsCountAsNoFurtherOnes)
+TEST(ScanJoiner, FreePairsCountAsNoFurtherOnes)
+{
+  const RoomScans room;
+  Placeable scans;
+  for (const auto& one : room.points)
+    scans.add(one);
+  pcl6d::PairMemory memory;
+  std::set<std::pair<std::size_t, std::size_t>> paid;
+  JoinOptions options;
+  options.memory = &memory;
+  options.free_pairs = &paid;
+  options.max_pairs = 2;
+  std::size_t placed = 0;
+  for (int call = 0; call < 4; ++call) {
+    const JoinedScans found = joinScans(scans.all(), options);
+    EXPECT_LE(found.pairs_paid.size(), 2U);
+    EXPECT_GE(found.pairs_placed, placed) << "no less than before";
+    EXPECT_EQ(found.pairs_placed, placed + found.pairs_paid.size());
+    EXPECT_GT(found.pairs_left_out, 0U);
+    placed = found.pairs_placed;
+    paid.insert(found.pairs_paid.begin(), found.pairs_paid.end());
+  }
+  EXPECT_EQ(placed, 8U);
+}
+
+// A resumed run has an empty memory, and other processes have another one.
+TEST(ScanJoiner, TheMemoryChangesNoLimit)
 {
   const RoomScans room;
   Placeable scans;
@@ -137,17 +163,14 @@ TEST(ScanJoiner, PairsThatTheMemoryKnowsCountAsNoFurtherOnes)
   pcl6d::PairMemory memory;
   JoinOptions options;
   options.memory = &memory;
-  options.max_pairs = 2;
-  std::size_t placed = 0;
-  for (int call = 0; call < 4; ++call) {
-    const JoinedScans found = joinScans(scans.all(), options);
-    EXPECT_LE(found.pairs_placed_anew, 2U);
-    EXPECT_GE(found.pairs_placed, placed) << "no less than before";
-    EXPECT_EQ(found.pairs_placed, placed + found.pairs_placed_anew);
-    EXPECT_GT(found.pairs_left_out, 0U);
-    placed = found.pairs_placed;
-  }
-  EXPECT_EQ(placed, 8U);
+  joinScans(scans.all(), options); // knows every pair
+  options.max_pairs = 3;
+  const JoinedScans known = joinScans(scans.all(), options);
+  options.memory = nullptr;
+  const JoinedScans unknown = joinScans(scans.all(), options);
+  EXPECT_EQ(known.pairs_paid, unknown.pairs_paid);
+  EXPECT_EQ(known.pairs_left_out, unknown.pairs_left_out);
+  EXPECT_EQ(known.groups, unknown.groups);
 }
 
 TEST(ScanJoiner, GivesTheSameBitsForAnyOrderAndAnyNumberOfThreads)

@@ -106,4 +106,9 @@ TEST(MotionEvidence, LostSweepsAndThoseOfANewMapDoNotCount)
   }
   EXPECT_EQ(evidence.holdsMotion(), std::nullopt);
   EXPECT_EQ(evidence.ratio(), 1);
+  for (int map = 0; map < 20; ++map) {
+    evidence.add(tracked(0, 0, SweepStatus::kFirst), tracked(0.01, 0));
+    addMany(evidence, 29, 0.02, 0.01);
+  }
+  EXPECT_EQ(evidence.ratio(), 1);
 }

@@ -37,6 +37,18 @@ budgetOf(const std::vector<ScanResult>& scans)
 }
 } // namespace
 
+namespace {
+/** \return pairs of scans, others in each round */
+std::vector<std::pair<std::size_t, std::size_t>>
+somePairs(std::size_t count, int round)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k < count; ++k)
+    pairs.emplace_back(k, 1000 * (static_cast<std::size_t>(round) + 1) + k);
+  return pairs;
+}
+} // namespace
+
 TEST(RecoveryBudget, IsTwoMatchesForEachRegisteredScanAndAtLeastAFew)
 {
   for (const std::size_t count : {1U, 20U, 32U, 33U, 500U})
@@ -83,7 +95,7 @@ TEST(RecoveryBudget, IsNeverOverdrawn)
       std::size_t spent = kSearch * searchesInVain(scans);
       for (int round = 0; round < 5; ++round) {
         const std::size_t pairs = budget.pairsLeft();
-        budget.spendPairs(pairs, 3);
+        budget.spendPairs(somePairs(pairs, round), 3);
         spent += kPair * pairs;
         spent += budget.spendSecondLook(registered) ? registered : 0;
       }
@@ -97,7 +109,7 @@ TEST(RecoveryBudget, NotesWhatItDoesNotPayFor)
   RecoveryBudget budget = budgetOf(scansWithLost(20, 1000));
   EXPECT_TRUE(budget.spendSecondLook(20));
   EXPECT_FALSE(budget.leftOut().is_second_look);
-  budget.spendPairs(budget.pairsLeft(), 0);
+  budget.spendPairs(somePairs(budget.pairsLeft(), 0), 0);
   EXPECT_EQ(budget.pairsLeft(), 0U);
   EXPECT_FALSE(budget.spendSecondLook(20));
   EXPECT_TRUE(budget.leftOut().is_second_look);
@@ -109,17 +121,46 @@ TEST(RecoveryBudget, NotesWhatItDoesNotPayFor)
   EXPECT_EQ(budget.left(), kLeast);
 }
 
+namespace {
+/** Hands the values of the first process to the others, in order. */
+class Wire {
+public:
+  std::size_t
+  operator()(std::size_t number)
+  {
+    return std::size_t(value({number}).front());
+  }
+  std::vector<std::size_t>
+  operator()(const std::vector<std::size_t>& numbers)
+  {
+    return value(numbers);
+  }
+  bool is_first = true;
+
+private:
+  std::vector<std::size_t>
+  value(const std::vector<std::size_t>& own)
+  {
+    if (is_first)
+      sent_.push_back(own);
+    return is_first ? own : sent_[next_++];
+  }
+  std::vector<std::vector<std::size_t>> sent_;
+  std::size_t next_ = 0;
+};
+} // namespace
+
 TEST(RecoveryBudget, IsTakenOverFromTheFirstProcess)
 {
-  const RecoveryBudget first = budgetOf(scansWithLost(100, 10));
-  RecoveryBudget other;
-  std::vector<std::size_t> sent;
-  RecoveryBudget sender = first;
-  sender.exchange([&](std::size_t matches) {
-    sent.push_back(matches);
-    return matches;
-  });
-  std::size_t next = 0;
-  other.exchange([&](std::size_t) { return sent[next++]; });
+  RecoveryBudget first = budgetOf(scansWithLost(100, 10)), other;
+  first.spendPairs({{2, 5}, {0, 7}}, 0);
+  other.spendPairs({{1, 2}}, 0);
+  Wire wire;
+  const auto send = [&](const auto& value) { return wire(value); };
+  first.exchange(send);
+  wire.is_first = false;
+  other.exchange(send);
   EXPECT_EQ(other.left(), first.left());
+  EXPECT_EQ(other.paidPairs(), first.paidPairs());
+  EXPECT_EQ(first.paidPairs().size(), 2U);
 }

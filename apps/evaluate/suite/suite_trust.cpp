@@ -40,7 +40,9 @@ isNamed(const RunResult& run, std::size_t i)
   if (!run.verification)
     return false;
   const ScanCheck& check = run.verification->scans.at(i);
-  return check.doubt || (run.scans.size() > 1 && !check.tied);
+  const bool is_doubted =
+      check.doubt && check.doubt.reason != RejectReason::kSecondPoseNotSought;
+  return is_doubted || (run.scans.size() > 1 && !check.tied);
 }
 
 /** \return the lines of a verdict that doubt the map, joined */

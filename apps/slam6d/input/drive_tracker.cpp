@@ -35,16 +35,22 @@ DriveTracker::track(std::size_t i, Sweep sweep)
   Sweep rigid = sweep;
   rigid.times.clear();
   const TrackedSweep as_rigid = rigid_->track(i, std::move(rigid));
-  evidence_.add(moving_->track(i, std::move(sweep)), as_rigid);
-  if (const auto holds_motion = evidence_.holdsMotion())
+  const TrackedSweep as_moving = moving_->track(i, std::move(sweep));
+  evidence_.add(as_moving, as_rigid);
+  if (as_moving.status == SweepStatus::kTracked && as_moving.path.stamps.empty())
+    decide(true); // all points have one time
+  else if (const auto holds_motion = evidence_.holdsMotion())
     decide(*holds_motion);
 }
 
 void
-DriveTracker::finish()
+DriveTracker::finish(std::size_t most_lost)
 {
-  if (moving_ && rigid_)
-    decide(evidence_.holdsMotionInTheEnd());
+  if (!moving_ || !rigid_)
+    return;
+  const bool fails_moving = moving_->numLost() > most_lost;
+  const bool fails_rigid = rigid_->numLost() > most_lost;
+  decide(fails_moving == fails_rigid ? evidence_.holdsMotionInTheEnd() : fails_rigid);
 }
 
 std::size_t
@@ -72,10 +78,15 @@ DriveTracker::decide(bool holds_motion)
   moving_.reset();
   was_corrected_ = true;
   rigid_->sayTo(&bar_);
+  const std::string farther =
+      evidence_.ratio() > 1
+          ? " (as moving, they lie " +
+                std::to_string(std::lround(100 * (evidence_.ratio() - 1))) +
+                " % farther from the surfaces)"
+          : "";
   bar_.say("tracking: the points have times, but the motion within the sweeps is "
-           "corrected already (as moving, they lie " +
-           std::to_string(std::lround(100 * (evidence_.ratio() - 1))) +
-           " % farther from the surfaces); --deskew odometry takes the times");
+           "corrected already" +
+           farther + "; --deskew odometry takes the times");
 }
 
 } // namespace pcl6d::app

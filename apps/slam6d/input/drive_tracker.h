@@ -33,9 +33,10 @@ public:
   void
   track(std::size_t i, Sweep sweep);
 
-  /** \brief Decides, after the last sweep. */
+  /** \brief Decides, after the last sweep. \param[in] most_lost sweeps that a drive may lose: a way
+   * with more is wrong if the other has fewer */
   void
-  finish();
+  finish(std::size_t most_lost);
 
   /** \return the drive, by the likelier way so far */
   TrackedDrive&

@@ -87,7 +87,7 @@ trackAll(const Settings& settings,
 {
   const std::size_t count = folder.size();
   RunScans times(folder);
-  const bool has_times = haveTimes(folder);
+  const bool has_times = settings.deskew != Deskew::kNone && haveTimes(folder);
   if (has_times)
     times.estimateMotion();
   const auto when = threadCount(settings.slam.num_threads) > 1 ? std::launch::async
@@ -97,6 +97,13 @@ trackAll(const Settings& settings,
       return sweepOf(folder, i, has_times ? &times : nullptr);
     });
   };
+  const auto isGivenUp = [&](std::size_t last) {
+    if (settings.track != Tracking::kAuto || drive.numLost() * kOneIn <= count)
+      return false;
+    bar.say("tracking in the order of the files: given up at " + folder.title(last) +
+            ", " + std::to_string(drive.numLost()) + " scans were lost");
+    return true;
+  };
   std::future<Sweep> next = read(0);
   for (std::size_t i = 0; i < count; ++i) {
     Sweep sweep = next.get();
@@ -104,14 +111,11 @@ trackAll(const Settings& settings,
       next = read(i + 1);
     drive.track(i, std::move(sweep));
     progress({"tracking", i + 1, count});
-    if (settings.track == Tracking::kAuto && drive.numLost() * kOneIn > count) {
-      bar.say("tracking in the order of the files: given up at " + folder.title(i) +
-              ", " + std::to_string(drive.numLost()) + " scans were lost");
+    if (isGivenUp(i))
       return false;
-    }
   }
-  drive.finish();
-  return true;
+  drive.finish(count / kOneIn);
+  return !isGivenUp(count - 1);
 }
 
 /** \return the keyframes among scans with poses; none if the first scan has no point */

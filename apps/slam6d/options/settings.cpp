@@ -53,14 +53,22 @@ conditionsOf(const OptionList& options, const OptionTable& table)
   return conditions;
 }
 
+bool
+isDeskewWord(const std::string& word)
+{
+  for (const char* one : {kDeskewEstimate, kDeskewOdometry, "auto", "no", "yes"})
+    if (word == one)
+      return true;
+  return false;
+}
+
 /** \return the arguments with `--deskew estimate` replaced by `--deskew=estimate`: the word is
  * optional, and the parser would take a separate word for another argument */
 std::vector<std::string>
 withDeskewWord(const std::string& option, std::vector<std::string> arguments)
 {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
-    if (arguments[i] == "--" + option &&
-        (arguments[i + 1] == kDeskewEstimate || arguments[i + 1] == kDeskewOdometry)) {
+    if (arguments[i] == "--" + option && isDeskewWord(arguments[i + 1])) {
       arguments[i] += "=" + arguments[i + 1];
       arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     }

@@ -171,7 +171,14 @@ SlamRun::optimize()
   if (stages_.empty())
     stages_ = stagesOfRun(added_);
   const bool is_whole = runStages(stages_, state_, context);
-  state_.result.left_out = state_.recovery.budget().leftOut();
+  state_.result.left_out = {};
+  if (isBounded(state_.options)) {
+    state_.result.left_out = state_.recovery.budget().leftOut();
+    // Others found many of the scans.
+    state_.result.left_out.searches =
+        std::min(state_.result.left_out.searches,
+                 countScans(state_.result.scans, ScanState::kPredicted));
+  }
   return is_whole;
 }
 

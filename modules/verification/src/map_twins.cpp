@@ -19,9 +19,9 @@ using verification::linkBetween;
 using verification::surestLinkOf;
 
 namespace {
-/** Number of scans searched for a second pose at a time, independent of the number of threads: a map
- * of which one is ambiguous is searched no further. */
-constexpr std::size_t kSearchedAtATime = 8;
+/** Number of scans searched for a second pose first, independent of the number of threads: a map of
+ * which one is ambiguous is searched no further. Then twice as many, and so on. */
+constexpr std::size_t kSearchedFirst = 8;
 } // namespace
 
 /** \return whether a second pose of a scan makes a consistent link with a neighbour, is not
@@ -89,8 +89,9 @@ MapVerifier::findTwins(const std::vector<Eigen::Isometry3d>& poses,
   const std::vector<std::size_t> unsure = unsureScans(map);
   bool is_decided =
       verification::MapDoubts(scans_, names_, test_results_).isDoubtful(map);
-  for (std::size_t begin = 0; begin < unsure.size(); begin += kSearchedAtATime) {
-    std::vector<Rejection> doubts(std::min(kSearchedAtATime, unsure.size() - begin));
+  std::vector<Rejection> doubts;
+  for (std::size_t begin = 0; begin < unsure.size(); begin += doubts.size()) {
+    doubts.assign(std::min(kSearchedFirst + begin, unsure.size() - begin), {});
     const auto place = [&](std::size_t k) { return unsure[begin + k]; };
     if (!is_decided)
       sharedFor(

@@ -250,6 +250,8 @@ MapVerifier::collectEvidence(const std::vector<Pair>& pairs,
               found->second.T_first_second.matrix() == T.matrix())
             known = &found->second;
         evidence_[k] = known ? *known : linkEvidence(scans_[a], scans_[b], T);
+        if (!options_.refined)
+          evidence_[k].refined.reset();
       });
 }
 

@@ -94,11 +94,11 @@ TEST(CorrectedSweeps, AreTakenAsTheWordOfDeskewTells)
   const TempFolder folder;
   writeDrive(folder / "in");
   std::vector<std::string> options = {
-      "--no-verification", "--no-picture", "--deskew=no"};
+      "--no-verification", "--no-picture", "--deskew", "no"};
   const Outcome as_rigid = slam(folder / "in", folder / "no", options);
   EXPECT_EQ(as_rigid.err.find("corrected"), std::string::npos) << as_rigid.err;
   EXPECT_LT(largestError(folder / "no"), 0.02);
-  options.back() = "--deskew=odometry";
+  options.back() = "odometry";
   const Outcome as_moving = slam(folder / "in", folder / "moving", options);
   EXPECT_NE(as_moving.err.find("motion during a scan is corrected"), std::string::npos)
       << as_moving.err;

@@ -65,7 +65,7 @@ Joiner::run(JoinedScans& result)
   leaveTorn();
   sortGroups();
   result.pairs_placed = placed_.size();
-  result.pairs_placed_anew = num_new_;
+  result.pairs_paid.assign(paid_.begin(), paid_.end());
   result.pairs_left_out = left_out_.size();
 }
 
@@ -92,12 +92,16 @@ Joiner::place(const std::vector<RankedPair>& pairs)
 {
   std::vector<RankedPair> taken; // the likeliest come first
   for (const auto& one : pairs) {
-    const bool is_new = !hypotheses_.isKnown(one.scans);
-    if (is_new && options_.max_pairs > 0 && num_new_ >= options_.max_pairs) {
+    const bool is_free =
+        options_.free_pairs && options_.free_pairs->count(one.scans) > 0;
+    const bool is_paid = paid_.count(one.scans) > 0;
+    if (!is_free && !is_paid && options_.max_pairs > 0 &&
+        paid_.size() >= options_.max_pairs) {
       left_out_.insert(one.scans);
       continue;
     }
-    num_new_ += is_new ? 1 : 0;
+    if (!is_free)
+      paid_.insert(one.scans);
     placed_.insert(one.scans);
     taken.push_back(one);
   }

@@ -139,7 +139,7 @@ private:
   std::vector<RankedPair> ranked_;
   std::set<ScanPlaces> placed_; // pairs
   Grown grown_;
-  std::size_t num_new_ = 0;       // pairs placed by this run, of a limited number
+  std::set<ScanPlaces> paid_;     // placed pairs, of a limited number
   std::set<ScanPlaces> left_out_; // pairs beyond the limit
   int num_competitors_ = 0;       // groups grown from all scans by isAnotherPlace()
 };

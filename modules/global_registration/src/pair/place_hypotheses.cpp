@@ -49,12 +49,6 @@ PlaceHypotheses::PlaceHypotheses(const ScanList& scans,
 , of_scan_(scans.size())
 {}
 
-bool
-PlaceHypotheses::isKnown(const ScanPlaces& pair) const
-{
-  return memory_ && memory_->candidates(pairOf(scans_, pair), max_ambiguity_);
-}
-
 std::vector<PairMemory::Candidate>
 PlaceHypotheses::candidatesOf(const ScanPlaces& pair) const
 {

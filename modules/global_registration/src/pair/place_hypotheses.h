@@ -56,10 +56,6 @@ public:
   strongestBeginning(const std::vector<bool>& joined,
                      const std::set<ScanPlaces>& tried) const;
 
-  /** \return whether the memory has the candidates of a pair: adding it takes no time */
-  bool
-  isKnown(const ScanPlaces& pair) const;
-
 private:
   std::vector<PairMemory::Candidate>
   candidatesOf(const ScanPlaces& pair) const;

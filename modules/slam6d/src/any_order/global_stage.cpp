@@ -149,10 +149,11 @@ GlobalStage::join(const std::vector<std::size_t>& runs,
   join.known = withPieces(known, pieces);
   if (isBounded(options_) && !pieces.empty()) {
     join.pairs = pairsBesidePieces(pieces);
+    join.free_pairs = &recovery_.budget().paidPairs();
     join.max_pairs = std::max<std::size_t>(1, recovery_.budget().pairsLeft());
   }
   JoinedScans joined = joinScans(placeable, join);
-  recovery_.budget().spendPairs(joined.pairs_placed_anew, joined.pairs_left_out);
+  recovery_.budget().spendPairs(joined.pairs_paid, joined.pairs_left_out);
   requireJoined(known, joined);
   sortKnown(known, scans, joined);
   return joined;

@@ -52,8 +52,8 @@ constexpr double kMedianOfChance = 5.348 / 6, kLargestOfChance = 22.46 / 6;
 bool
 isOfRefinedLinks(const MapVerification& map)
 {
-  return std::any_of(map.links.begin(), map.links.end(), [](const LinkCheck& link) {
-    return link.refined;
+  return std::any_of(map.links.begin(), map.links.end(), [&](const LinkCheck& link) {
+    return link.refined && measures(link, map);
   });
 }
 

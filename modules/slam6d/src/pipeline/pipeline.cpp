@@ -76,7 +76,7 @@ takeResultOfFirst(SlamState& state, const SlamContext& context)
   state.breaks = ofFirst(state.breaks, context);
   state.pieces = ofFirst(state.pieces, context);
   state.recovery.budget().exchange(
-      [&](std::size_t matches) { return ofFirst(matches, context); });
+      [&](const auto& value) { return ofFirst(value, context); });
   const std::string bytes =
       ofFirst(context.isFirst() ? packed(state.result) : std::string(), context);
   if (!context.isFirst())

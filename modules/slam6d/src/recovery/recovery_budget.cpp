@@ -83,6 +83,7 @@ RecoveryBudget::begin(const std::vector<ScanResult>& scans)
   const std::size_t in_vain = searchesInVain(scans);
   most_ = std::max(kLeastMatches, kMatchesPerScan * countRegistered(scans));
   spent_ = kMatchesOfSearch * in_vain;
+  paid_.clear();
   left_out_ = {};
   left_out_.searches = countScans(scans, ScanState::kPredicted) - in_vain;
 }
@@ -94,9 +95,12 @@ RecoveryBudget::pairsLeft() const
 }
 
 void
-RecoveryBudget::spendPairs(std::size_t placed, std::size_t left_out)
+RecoveryBudget::spendPairs(
+    const std::vector<std::pair<std::size_t, std::size_t>>& placed,
+    std::size_t left_out)
 {
-  spent_ += kMatchesOfPlacement * placed;
+  spent_ += kMatchesOfPlacement * placed.size();
+  paid_.insert(placed.begin(), placed.end());
   left_out_.pairs += left_out;
 }
 

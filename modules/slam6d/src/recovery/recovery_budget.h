@@ -6,6 +6,8 @@
 #include <pcl6d/slam6d/slam6d_result.h>
 
 #include <cstddef>
+#include <set>
+#include <utility>
 #include <vector>
 
 /** \file What a bounded run may spend on scans that lost track. Time is counted in matches, not
@@ -30,7 +32,7 @@ searchesInVain(const std::vector<ScanResult>& scans);
 class PCL6D_EXPORTS RecoveryBudget { // exported for its test
 public:
   /** \brief Begins anew, with about the time of the rest of the run.
-   * \param[in] scans of the run, matched one by one */
+   * \param[in] scans of the run, matched one by one; without those of an earlier run */
   void
   begin(const std::vector<ScanResult>& scans);
 
@@ -45,10 +47,20 @@ public:
   std::size_t
   pairsLeft() const;
 
+  /** \return the pairs of scans matched without prediction since begin(): their candidates are known,
+   * and cost nothing again. Pairs matched before cost as much as unknown ones: a resumed run must not
+   * depend on them, nor a process that did not match them */
+  const std::set<std::pair<std::size_t, std::size_t>>&
+  paidPairs() const
+  {
+    return paid_;
+  }
+
   /** \param[in] placed pairs matched without prediction
-   * \param[in] left_out likely pairs that were not */
+   * \param[in] left_out number of likely pairs that were not */
   void
-  spendPairs(std::size_t placed, std::size_t left_out);
+  spendPairs(const std::vector<std::pair<std::size_t, std::size_t>>& placed,
+             std::size_t left_out);
 
   /** \brief Notes lost scans compared with no other scan. */
   void
@@ -77,10 +89,20 @@ public:
   {
     most_ = of_first(most_);
     spent_ = of_first(spent_);
+    std::vector<std::size_t> scans;
+    for (const auto& [from, to] : paid_) {
+      scans.push_back(from);
+      scans.push_back(to);
+    }
+    scans = of_first(scans);
+    paid_.clear();
+    for (std::size_t k = 0; k + 1 < scans.size(); k += 2)
+      paid_.emplace(scans[k], scans[k + 1]);
   }
 
 private:
   std::size_t most_ = 0, spent_ = 0; // [matches]
+  std::set<std::pair<std::size_t, std::size_t>> paid_;
   RecoveryLeftOut left_out_;
 };
 

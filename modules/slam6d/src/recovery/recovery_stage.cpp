@@ -158,8 +158,10 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   join.num_threads = options_.num_threads;
   join.progress = report;
   join.pairs = likelyPairs(askedOf(pieces), result);
-  if (isBounded(options_))
+  if (isBounded(options_)) {
+    join.free_pairs = &recovery_.budget().paidPairs();
     join.max_pairs = recovery_.budget().pairsLeft();
+  }
   join.known.resize(result.scans.size());
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     list.push_back(recovery_.placeable(i));
@@ -171,7 +173,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
       for (const std::size_t i : pieces[p])
         join.known[i] = {p + 1, own_[i].T_world_scan};
   const JoinedScans joined = joinScans(list, join);
-  recovery_.budget().spendPairs(joined.pairs_placed_anew, joined.pairs_left_out);
+  recovery_.budget().spendPairs(joined.pairs_paid, joined.pairs_left_out);
   return joined;
 }
 

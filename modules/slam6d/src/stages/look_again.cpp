@@ -29,6 +29,19 @@ public:
   StageEnd
   run(SlamState& state, SlamContext& context) override
   {
+    const RecoveryBudget before = state.recovery.budget();
+    try {
+      return look(state, context);
+    } catch (...) { // cancelled: the next call looks with as much
+      state.recovery.budget() = before;
+      throw;
+    }
+  }
+
+private:
+  StageEnd
+  look(SlamState& state, SlamContext& context)
+  {
     if (isBounded(state.options) &&
         !state.recovery.budget().spendSecondLook(countRegistered(state.result)))
       return StageEnd::kReverted;
@@ -53,7 +66,6 @@ public:
     return StageEnd::kDone;
   }
 
-private:
   static std::size_t
   countRegistered(const Slam6DResult& result)
   {

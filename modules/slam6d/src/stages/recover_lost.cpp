@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages.h"
 
+#include <algorithm>
+
 namespace pcl6d::slam6d {
 
 namespace {
@@ -21,8 +23,12 @@ class RecoverLost : public Stage {
   StageEnd
   run(SlamState& state, SlamContext& context) override
   {
-    if (!state.is_second_look)
-      state.recovery.budget().begin(state.result.scans);
+    if (!state.is_second_look) {
+      const auto& scans = state.result.scans;
+      const std::size_t first = std::min(state.num_of_earlier_run, scans.size());
+      state.recovery.budget().begin(
+          {scans.begin() + static_cast<std::ptrdiff_t>(first), scans.end()});
+    }
     state.map->recover(
         [&](const Progress& now) {
           context.report({"recovering", now.done, now.total});

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,8 +37,9 @@ struct JoinedScans {
    * scans last */
   std::vector<std::vector<std::size_t>> groups;
   std::size_t pairs_compared = 0, pairs_placed = 0;
-  std::size_t pairs_placed_anew = 0; ///< unknown to JoinOptions::memory
-  std::size_t pairs_left_out = 0;    ///< likely pairs beyond JoinOptions::max_pairs
+  /** placed pairs that are not among JoinOptions::free_pairs, in ascending order */
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_paid;
+  std::size_t pairs_left_out = 0; ///< likely pairs beyond JoinOptions::max_pairs
 };
 
 /** \brief The known pose of a scan in a group. */
@@ -51,9 +53,12 @@ struct KnownPlace {
 struct JoinOptions {
   std::size_t pairs_per_scan = 4; ///< largest number of placeScan()
                                   ///< calls / number of scans; > 0
-  /** largest number of placeScan() calls, on the likeliest pairs. Pairs that the memory knows cost
-   * none; 0: no further limit */
+  /** largest number of placeScan() calls, on the likeliest pairs, beside the free ones; 0: no further
+   * limit */
   std::size_t max_pairs = 0;
+  /** pairs of indices, the lower first, placed in an earlier call with the same memory, and not
+   * limited again; null: none */
+  const std::set<std::pair<std::size_t, std::size_t>>* free_pairs = nullptr;
   double max_ambiguity = 0.6; ///< second score / score of an accepted pose; in [0, 1]
   /** known pose of each scan in a group. Relative poses within a known group stay fixed. Known
    * groups come first, by their numbers; empty: no pose is known */

@@ -93,7 +93,7 @@ TEST(OpenDirections, ATurnDoesNotCarryTheSlideAcross)
 TEST(OpenDirections, KeepTurnsAboutTheMiddleOfThePoints)
 {
   const Eigen::Translation3d middle(5, 1, 0);
-  const Eigen::Isometry3d turn = poseFromEuler({}, {0.01, -0.02, 0.05});
+  const Eigen::Isometry3d turn = poseFromEuler({0, 0, 0}, {0.01, -0.02, 0.05});
   const Eigen::Isometry3d predicted = poseFromEuler({0.5, 0.1, 0}, {0, 0, 0.3});
   IcpResult found = foundWith(1, middle * turn * middle.inverse() * predicted);
   const Eigen::Isometry3d pose = found.T_target_source;

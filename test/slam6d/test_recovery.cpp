@@ -102,7 +102,7 @@ TEST(Recovery, FindsScansBehindATurnOfTheOdometry)
 {
   DriftingRun run = makeCorridorRun(12, 12, 0);
   for (std::size_t i = 6; i < run.odometry.size(); ++i)
-    run.odometry[i] = run.odometry[5] * poseFromEuler({}, {0, 0, 0.8}) *
+    run.odometry[i] = run.odometry[5] * poseFromEuler({0, 0, 0}, {0, 0, 0.8}) *
                       run.truth[5].inverse() * run.truth[i];
   const Slam6DResult result = registered(run);
   expectTruth(result, run);

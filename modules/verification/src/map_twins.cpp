@@ -72,6 +72,7 @@ MapVerifier::unsureScans(const MapVerification& map) const
   }
   std::sort(unsure.begin(), unsure.end());
   std::vector<std::size_t> order;
+  order.reserve(unsure.size());
   for (const auto& [patches, scan] : unsure)
     order.push_back(scan);
   return order;

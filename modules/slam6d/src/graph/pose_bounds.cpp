@@ -198,7 +198,7 @@ discountContradictions(const MapVerification& map,
     for (std::size_t k = 0; k < given.size(); ++k)
       graph.links[k].information =
           squares[k] > kLargestOfChance * usual
-              ? PoseInformation(given[k].information * (usual / squares[k]))
+              ? Matrix6(given[k].information * (usual / squares[k]))
               : given[k].information;
   }
 }

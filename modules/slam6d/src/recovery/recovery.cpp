@@ -123,6 +123,7 @@ Recovery::usualBefore(std::size_t scan, const std::vector<ScanResult>& scans)
       usual_[i] = linkEvidence(verified_[i - 1], verified_[i], T);
   });
   std::vector<LinkEvidence> links;
+  links.reserve(seconds.size());
   for (const std::size_t i : seconds)
     links.push_back(*usual_[i]);
   return links;

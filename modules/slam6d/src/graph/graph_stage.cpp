@@ -190,13 +190,6 @@ GraphStage::closeLoops(Slam6DResult& result, std::size_t first)
   return conclude(stage, start, closed.poses, result);
 }
 
-/** \return whether scans are in the order of their acquisition */
-bool
-GraphStage::isSequence() const
-{
-  return options_.initial_guess != InitialGuess::kGlobal;
-}
-
 bool
 GraphStage::closeLoopsOfLast(Slam6DResult& result)
 {

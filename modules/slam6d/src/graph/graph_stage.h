@@ -64,14 +64,18 @@ public:
   void
   run(Slam6DResult& result, const ClosedLoops& online, const Observer& observer);
 
-  /** \brief Runs another round of relaxation, and a last one with many pairs, with the scans added to this stage, from which the
-   * dynamic points were removed. No effect without relaxation in the options. */
+  /** \brief Runs another round of relaxation, and a last one with many pairs, with the scans added to
+   * this stage, from which the dynamic points were removed. No effect without relaxation in the options. */
   void
   relaxAgain(Slam6DResult& result, const Observer& observer);
 
 private:
+  /** \return whether scans are in the order of their acquisition */
   bool
-  isSequence() const;
+  isSequence() const
+  {
+    return options_.initial_guess != InitialGuess::kGlobal;
+  }
   void
   compareMatching(Slam6DResult& result) const;
   bool

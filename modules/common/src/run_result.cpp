@@ -27,6 +27,7 @@ constexpr Named<StageKind> kStageKinds[] = {{StageKind::kMatching, "matching"},
                                             {StageKind::kLoopClosing, "loop closing"},
                                             {StageKind::kRelaxation, "relaxation"},
                                             {StageKind::kMotion, "motion within scans"},
+                                            {StageKind::kLinks, "refined links"},
                                             {StageKind::kControl, "control points"}};
 constexpr Named<LinkKind> kKinds[] = {{LinkKind::kSequence, "sequence"},
                                       {LinkKind::kNetwork, "network"},

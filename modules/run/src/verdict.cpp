@@ -142,7 +142,8 @@ describeStages(const RunResult& run, std::ostream& text)
 {
   text << std::fixed << std::setprecision(3);
   for (const auto& stage : run.graph_stages) {
-    if (stage.kind == StageKind::kMatching || stage.kind == StageKind::kControl)
+    if (stage.kind == StageKind::kMatching || stage.kind == StageKind::kLinks ||
+        stage.kind == StageKind::kControl) // their agreement is not measured
       continue;
     text << '\n' << toString(stage.kind) << (stage.reverted ? " reverted: " : ": ");
     if (stage.reverted)

@@ -157,7 +157,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
   for (const std::string& name : names)
     files.push_back(std::filesystem::path(name).filename().string());
   MapVerification map = MapVerifier(scans_, files, options).verify(poses);
-  boundPoses(poses, map, num_threads_, frames_);
+  factor_ = boundPoses(poses, map, num_threads_, frames_, least_factor_);
   explainDoubts(results, map);
   return map;
 }

@@ -82,6 +82,20 @@ public:
               const MapIsKept& is_kept,
               Slam6DResult& result);
 
+  /** Bounds of further verdicts are at least as wide as the deviations of the links of the last one
+   * ask for: for a map that is adjusted to its links. Ends with forgetVariance() */
+  void
+  keepVariance()
+  {
+    least_factor_ = factor_;
+  }
+
+  void
+  forgetVariance()
+  {
+    least_factor_ = 1;
+  }
+
 private:
   /** Input of a verdict, for each scan. */
   struct Verified {
@@ -104,6 +118,7 @@ private:
 
   unsigned int num_threads_;
   bool are_refined_ = false;
+  double factor_ = 1, least_factor_ = 1; ///< variance factors, see boundPoses()
   WorkSharing* sharing_ = nullptr;
   std::vector<Eigen::Matrix<double, 6, 6>> frames_;
   std::deque<std::optional<IcpModel>> surfaces_; ///< for reduced scans without normals

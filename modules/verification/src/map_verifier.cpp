@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "links_of_map.h"
 #include "map_doubts.h"
+#include "refined_fit.h"
 
 #include <pcl6d/common/error.h>
 #include <pcl6d/common/pose.h>
@@ -232,6 +233,16 @@ MapVerifier::checkScans(const verification::Ties& ties, MapVerification& map) co
   }
 }
 
+/** \return the evidence of a link from the verdict before, perhaps at another pose; null: none */
+const LinkEvidence*
+MapVerifier::knownEvidence(const Pair& pair) const
+{
+  if (!options_.memory)
+    return nullptr;
+  const auto found = options_.memory->find(pair);
+  return found == options_.memory->end() ? nullptr : &found->second;
+}
+
 /** Tests the links, except for those known from the verdict before. */
 void
 MapVerifier::collectEvidence(const std::vector<Pair>& pairs,
@@ -243,15 +254,14 @@ MapVerifier::collectEvidence(const std::vector<Pair>& pairs,
       options_.sharing, options_.num_threads, evidence_, later, [&](std::size_t k) {
         const auto [a, b] = pairs[k];
         const Eigen::Isometry3d T = poses[a].inverse() * poses[b];
-        const LinkEvidence* known = nullptr;
-        if (options_.memory)
-          if (const auto found = options_.memory->find(pairs[k]);
-              found != options_.memory->end() &&
-              found->second.T_first_second.matrix() == T.matrix())
-            known = &found->second;
-        evidence_[k] = known ? *known : linkEvidence(scans_[a], scans_[b], T);
+        const LinkEvidence* known = knownEvidence(pairs[k]);
+        const bool is_same = known && known->T_first_second.matrix() == T.matrix();
+        evidence_[k] = is_same ? *known : linkEvidence(scans_[a], scans_[b], T);
         if (!options_.refined)
           evidence_[k].refined.reset();
+        else if (!is_same && known && known->refined)
+          evidence_[k].refined =
+              verification::seenFrom(T, known->T_first_second, *known->refined);
       });
 }
 

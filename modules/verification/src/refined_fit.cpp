@@ -316,4 +316,16 @@ verification::refinedFit(const VerifiedScan& first,
   return fit.displacement() <= options.max_distance ? std::optional(fit) : std::nullopt;
 }
 
+std::optional<SurfaceFit>
+verification::seenFrom(const Eigen::Isometry3d& T_now,
+                       const Eigen::Isometry3d& T_first_second,
+                       const SurfaceFit& fit)
+{
+  const Eigen::Translation3d centroid(fit.centroid);
+  SurfaceFit now = fit;
+  now.step = twistFromMotion(motionFromTwist(fit.step) * centroid.inverse() *
+                             T_first_second * T_now.inverse() * centroid);
+  return now.displacement() <= fit.displacement() ? std::optional(now) : std::nullopt;
+}
+
 } // namespace pcl6d

@@ -20,4 +20,13 @@ refinedFit(const VerifiedScan& first,
            const Eigen::Isometry3d& T_first_second,
            const SurfaceFitOptions& options);
 
+/** \brief A fit seen from another pose nearby. Surfaces come to rest at the same pose, from wherever
+ * the steps begin.
+ * \param[in] fit refinedFit() from T_first_second
+ * \return the fit from T_now; none if rest is farther from T_now than from T_first_second */
+std::optional<SurfaceFit>
+seenFrom(const Eigen::Isometry3d& T_now,
+         const Eigen::Isometry3d& T_first_second,
+         const SurfaceFit& fit);
+
 } // namespace pcl6d::verification

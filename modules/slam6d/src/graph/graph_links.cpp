@@ -30,24 +30,6 @@ constexpr double kClosed = 0.5, kClosedTurn = 0.02; // [rad]
 /** Weight after switching below which a link is rejected. */
 constexpr double kSwitchedOff = 0.5;
 
-/** \return the odometry between two scans as a measured link. */
-PoseLink
-odometryBetween(const ScanResult& before,
-                const ScanResult& scan,
-                const ScanLink& link,
-                double voxel)
-{
-  PoseLink measured;
-  measured.from = link.from;
-  measured.to = link.to;
-  measured.T_from_to = before.initial_pose.inverse() * scan.initial_pose;
-  const double sigma = odometryDeviation(measured.T_from_to, voxel);
-  measured.information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
-  measured.information.diagonal().tail<3>().setConstant(
-      1 / (kOdometryTurn * kOdometryTurn));
-  return measured;
-}
-
 bool
 comesBefore(const ScanLink& a, const ScanLink& b)
 {
@@ -113,6 +95,23 @@ isRefuted(const std::vector<ScanResult>& scans, std::size_t scan)
          scans[scan].recovered != RecoveredBy::kNone;
 }
 
+PoseLink
+stepLink(std::size_t from,
+         std::size_t to,
+         const Eigen::Isometry3d& T_from_to,
+         double voxel)
+{
+  PoseLink measured;
+  measured.from = from;
+  measured.to = to;
+  measured.T_from_to = T_from_to;
+  const double sigma = odometryDeviation(T_from_to, voxel);
+  measured.information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
+  measured.information.diagonal().tail<3>().setConstant(
+      1 / (kOdometryTurn * kOdometryTurn));
+  return measured;
+}
+
 std::vector<PoseLink>
 measuredLinks(const std::vector<ScanLink>& odometry,
               const std::vector<ScanResult>& scans,
@@ -120,7 +119,11 @@ measuredLinks(const std::vector<ScanLink>& odometry,
 {
   std::vector<PoseLink> measured;
   for (const ScanLink& link : odometry)
-    measured.push_back(odometryBetween(scans[link.from], scans[link.to], link, voxel));
+    measured.push_back(
+        stepLink(link.from,
+                 link.to,
+                 scans[link.from].initial_pose.inverse() * scans[link.to].initial_pose,
+                 voxel));
   return measured;
 }
 

@@ -25,6 +25,14 @@ whyNotTaken(const GraphSlamResult& relaxed);
 ScanLink
 odometryLink(const Poses& poses, std::size_t scan, std::size_t pairs);
 
+/** \return a step between two scans as a measured link, known as odometry without stated noise is
+ * \param[in] voxel [m] of the reduction, the length scale of the scans */
+PoseLink
+stepLink(std::size_t from,
+         std::size_t to,
+         const Eigen::Isometry3d& T_from_to,
+         double voxel);
+
 /** \return the odometry of each link as a measured link, which connects scans without common points
  * (6.3) \param[in] scans with their initial poses
  * \param[in] voxel [m] of the reduction, the length scale of the scans */

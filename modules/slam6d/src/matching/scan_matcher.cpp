@@ -196,6 +196,8 @@ ScanMatcher::matchPoints(const IcpTarget& target,
   IcpResult found = icp(target, points.source(), guess, options);
   if (refines())
     refineMatch(target, points.source(), options, found);
+  if (holds_open_directions_)
+    measureWeakest(target, points.source(), options.max_distance, found);
   matchBalanced(target, points.source(), options, found);
   return found;
 }

@@ -53,6 +53,7 @@ stagesOfRun(const AddedStages& added)
   list.push_back(verifyMap());
   list.push_back(lookAgain(listOf(recoverLost()), listOf(relaxGraph())));
   list.push_back(returnUnconfirmed());
+  list.push_back(adjustToLinks());
   list.push_back(describeMotion());
   list.push_back(adjustToControl());
   return list;

@@ -65,6 +65,11 @@ lookAgain(StageList recovering, StageList relaxing);
 StagePtr
 returnUnconfirmed();
 
+/** The map is adjusted to its refined links, which know the poses of sparse scans better than matching
+ * does; kept if the verdict stays and as many scans are connected. */
+StagePtr
+adjustToLinks();
+
 /** Writes the results on dynamic points and on motion within scans, at the final poses. */
 StagePtr
 describeMotion();

@@ -133,10 +133,11 @@ enum class StageKind {
   kLoopClosing,
   kRelaxation,
   kMotion, ///< the motion within scans, in one adjustment of all scans
+  kLinks,  ///< the adjustment to refined links of sparse scans
   kControl ///< the adjustment to control points
 };
 
-/** \return "matching", "loop closing", "relaxation", "motion within scans" or "control
+/** \return "matching", "loop closing", "relaxation", "motion within scans", "refined links" or "control
  * points" */
 const char*
 toString(StageKind kind);

@@ -27,13 +27,18 @@ namespace PCL6D_EXPORTS pcl6d {
  * \param[in] frames covariance of the frame of each scan against its points, for small motions in
  * its own axes (DriveContext); empty: zero
  * \param[in] num_threads 0: one per core; never changes the result
+ * \param[in] least_factor least variance factor: of a map that was adjusted to its links, the factor
+ * before, because links agree with the map that follows from them
+ * \return the variance factor: the mean squared shift that the surfaces of links ask for, in their
+ * deviations, at least least_factor
  * \throws BadArgument number of poses, of scans or of frames differ
  * \note Source: share/doc/trust.md \ingroup slam6d */
-void
+double
 boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
            MapVerification& map,
            unsigned int num_threads = 0,
-           const std::vector<Eigen::Matrix<double, 6, 6>>& frames = {});
+           const std::vector<Eigen::Matrix<double, 6, 6>>& frames = {},
+           double least_factor = 1);
 
 /** \brief The links of a verified map as measured relative poses, for an adjustment with further
  * observations. Each link measures the shift of its scans by their surfaces, with the covariance

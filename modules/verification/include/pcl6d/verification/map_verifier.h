@@ -94,6 +94,8 @@ private:
   speaking(const Pair& pair, const std::vector<Eigen::Isometry3d>& poses) const;
   void
   checkScans(const verification::Ties& ties, MapVerification& map) const;
+  const LinkEvidence*
+  knownEvidence(const Pair& pair) const;
   void
   collectEvidence(const std::vector<Pair>& pairs,
                   const std::vector<Eigen::Isometry3d>& poses);

@@ -116,7 +116,8 @@ EarlierRuns::resultOf(std::size_t i) const
 {
   const RunResult& run = runs[scans[i].run].summary();
   ScanResult scan = run.scans.at(scans[i].place);
-  if (areJoined() && isFloating(scan, run))
+  const bool is_of_piece = scan.recovered == RecoveredBy::kTogether;
+  if ((areJoined() || is_of_piece) && isFloating(scan, run))
     scan.state = ScanState::kPredicted;
   return scan;
 }

@@ -111,7 +111,7 @@ private:
   verdictOn(const std::vector<Verified>& map,
             const std::vector<std::string>& names,
             const MapIsKept& is_kept,
-            const std::vector<ScanResult>& scans);
+            const Slam6DResult& result);
 
   void
   explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map);

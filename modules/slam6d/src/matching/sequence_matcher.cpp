@@ -135,10 +135,10 @@ SequenceMatcher::takeIn(std::size_t i, const std::vector<ScanResult>& scans)
   matcher_.takeIn(scans_.reduced()[i], scans_.measured()[i], scans[i]);
 }
 
-void
+KnownPlaces
 SequenceMatcher::recover(const ProgressCallback& report, Slam6DResult& result)
 {
-  RecoveryStage(options_, scans_, recovery_, matcher_).run(report, result);
+  return RecoveryStage(options_, scans_, recovery_, matcher_).run(report, result);
 }
 
 /** \return whether a match stays, by less than its pair distance, where the sweeps in between were

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "any_order/joined_runs.h"
 #include "matching/kept_scans.h"
 #include "matching/scan_matcher.h"
 #include "recovery/recovery.h"
@@ -52,7 +53,7 @@ public:
   takeIn(std::size_t scan, const std::vector<ScanResult>& scans);
 
   /** \brief Recovers lost scans once more, with all scans (RecoveryStage). */
-  void
+  KnownPlaces
   recover(const ProgressCallback& report, Slam6DResult& result);
 
 private:

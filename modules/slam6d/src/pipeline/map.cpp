@@ -31,13 +31,14 @@ Map::takeIn(std::size_t scan, const std::vector<ScanResult>& scans)
   note(scan + 1, scans);
 }
 
-void
+KnownPlaces
 Map::recover(const ProgressCallback& report, Slam6DResult& result)
 {
   update(result.scans.size(), result.scans);
   taken_.clear(); // after an interruption the map may contain recovered scans
-  matcher_->recover(report, result);
+  KnownPlaces beside = matcher_->recover(report, result);
   note(result.scans.size(), result.scans);
+  return beside;
 }
 
 /** Rebuilds the map of the first scans, unless it contains exactly these scans. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "any_order/joined_runs.h"
 #include "matching/sequence_matcher.h"
 
 #include <pcl6d/slam6d/slam6d_options.h>
@@ -39,7 +40,7 @@ public:
   takeIn(std::size_t scan, const std::vector<ScanResult>& scans);
 
   /** \brief Recovers lost scans once more, with all scans. */
-  void
+  KnownPlaces
   recover(const ProgressCallback& report, Slam6DResult& result);
 
 private:

@@ -53,6 +53,7 @@ stagesOfRun(const AddedStages& added)
   list.push_back(verifyMap());
   list.push_back(lookAgain(listOf(recoverLost()), listOf(relaxGraph())));
   list.push_back(returnUnconfirmed());
+  list.push_back(registerPieces());
   list.push_back(adjustToLinks());
   list.push_back(describeMotion());
   list.push_back(adjustToControl());
@@ -76,6 +77,7 @@ takeResultOfFirst(SlamState& state, const SlamContext& context)
   state.next = ofFirst(state.next, context);
   state.breaks = ofFirst(state.breaks, context);
   state.pieces = ofFirst(state.pieces, context);
+  state.beside = ofFirst(state.beside, context);
   state.recovery.budget().exchange(
       [&](const auto& value) { return ofFirst(value, context); });
   const std::string bytes =

@@ -76,6 +76,8 @@ struct SlamState {
   bool is_order_tried = false;        ///< the order of the scans is only a trial
   KnownPlaces
       pieces; ///< of a trial: poses of lost scans in pieces matched with each other
+  KnownPlaces
+      beside; ///< poses of scans that stay lost in pieces, matched with each other
   std::size_t breaks = 0; ///< of a trial: scans matched neither with the map nor with a
                           ///< lost scan before
   bool is_second_look =

@@ -22,6 +22,18 @@ constexpr std::size_t kAllCompared = 150, kCompared = 50;
  * with the kNeighbours nearest scans. */
 constexpr std::size_t kNeighbours = 12;
 
+/** Takes over the figures of a match within a piece. */
+void
+takeFigures(const ScanResult& match, ScanResult& scan)
+{
+  scan.status = match.status;
+  scan.pairs = match.pairs;
+  scan.rms = match.rms;
+  scan.overlap = match.overlap;
+  scan.iterations = match.iterations;
+  scan.correction = match.correction;
+}
+
 /** \return the result of a search that found no scan a place in the map, which is group 0 */
 JoinedScans
 nothingJoined(const Slam6DResult& result)
@@ -42,15 +54,15 @@ RecoveryStage::RecoveryStage(const Slam6DOptions& options,
 : options_(options), scans_(scans), recovery_(recovery), matcher_(matcher)
 {}
 
-void
+KnownPlaces
 RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
 {
   if (countScans(result.scans, ScanState::kPredicted) == 0)
-    return;
+    return {};
   std::vector<Piece> pieces = piecesOf(report, result);
   placeBackwards(pieces, result);
   if (pieces.empty())
-    return;
+    return {};
   const bool is_any_searched =
       std::any_of(pieces.begin(), pieces.end(), [this](const Piece& piece) {
         return !whyInVain(piece);
@@ -60,7 +72,7 @@ RecoveryStage::run(const ProgressCallback& report, Slam6DResult& result)
     recovery_.budget().leaveOut(askedOf(pieces).size());
   else if (is_any_searched)
     joined = join(pieces, report, result);
-  take(joined, pieces, result);
+  return take(joined, pieces, result);
 }
 
 /** \return why a search for a piece finds nothing: a single scan that no link can confirm; empty:
@@ -177,7 +189,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
   return joined;
 }
 
-void
+KnownPlaces
 RecoveryStage::take(const JoinedScans& joined,
                     const std::vector<Piece>& pieces,
                     Slam6DResult& result)
@@ -192,12 +204,19 @@ RecoveryStage::take(const JoinedScans& joined,
                 joined.scans[i].T_group_scan,
                 is_in_piece[i] ? RecoveredBy::kTogether : RecoveredBy::kEverywhere,
                 result);
-  for (const Piece& piece : pieces) {
+  KnownPlaces beside(result.scans.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Piece& piece = pieces[p];
     const JoinedScan& first = joined.scans[piece.front()];
     const Rejection in_vain = whyInVain(piece);
-    if (first.group != 0)
-      layBeside(piece, in_vain ? in_vain : first.rejection, result);
+    if (first.group == 0)
+      continue;
+    layBeside(piece, in_vain ? in_vain : first.rejection, result);
+    if (piece.size() > 1)
+      for (const std::size_t i : piece)
+        beside[i] = KnownPlace{p, own_[i].T_world_scan};
   }
+  return beside;
 }
 
 /** Matches a scan from its recovered pose in the map. */
@@ -226,9 +245,9 @@ RecoveryStage::takePlace(std::size_t i,
   scan.recovered = by;
 }
 
-/** A piece without an accepted pose in the map follows the odometry, scan by scan: the matches
- * within the piece are confirmed by no other scan, and a single wrong match would shift all later
- * scans. Without odometry, the matches within the piece are the only information. */
+/** A piece without an accepted pose in the map follows the odometry, scan by scan: a single wrong
+ * match within the piece would shift all later scans, and the verdict on the links of the piece comes
+ * later (registerPieces()). Without odometry, the matches are the only information. */
 void
 RecoveryStage::layBeside(const Piece& piece,
                          const Rejection& why,
@@ -255,6 +274,8 @@ RecoveryStage::layBeside(const Piece& piece,
       one.T_world_scan = T_world_piece * own_[i].T_world_scan;
     one.matched_pose = one.T_world_scan;
     one.state = ScanState::kPredicted;
+    if (i > first)
+      takeFigures(own_[i], one);
     if (piece.size() > 1)
       one.rejections.emplace_back(RejectReason::kLostTogether,
                                   static_cast<double>(piece.size() - 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "any_order/joined_runs.h"
 #include "matching/kept_scans.h"
 #include "matching/scan_matcher.h"
 #include "recovery/recovery.h"
@@ -27,11 +28,11 @@ public:
                 Recovery& recovery,
                 ScanMatcher& matcher);
 
-  /** \brief Changes the poses of lost scans. Scans that stay lost keep their poses within their
-   * piece, and the piece follows the odometry.
+  /** \brief Changes the poses of lost scans. Scans that stay lost follow the odometry.
    * \param[in] report of progress; may throw to end the stage
-   * \param[in,out] result not to be used after report threw */
-  void
+   * \param[in,out] result not to be used after report threw
+   * \return poses of scans that stay lost in pieces of several scans, matched with each other */
+  KnownPlaces
   run(const ProgressCallback& report, Slam6DResult& result);
 
 private:
@@ -45,7 +46,7 @@ private:
        const Slam6DResult& result);
   Rejection
   whyInVain(const Piece& piece) const;
-  void
+  KnownPlaces
   take(const JoinedScans& joined,
        const std::vector<Piece>& pieces,
        Slam6DResult& result);

@@ -65,9 +65,9 @@ hasDisconnected(const Slam6DResult& result)
 {
   if (!result.verification || result.verification->trust != MapTrust::kDoubtful)
     return false;
+  const std::vector<bool> in_map = areInMap(result);
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    if (isRegistered(result.scans[i]) && !isHeld(result.scans[i]) &&
-        !result.verification->scans[i].tied)
+    if (in_map[i] && !isHeld(result.scans[i]) && !result.verification->scans[i].tied)
       return true;
   return false;
 }

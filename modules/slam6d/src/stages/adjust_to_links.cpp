@@ -12,13 +12,16 @@ namespace pcl6d::slam6d {
 namespace {
 /** Lost scans follow the motion of the registered scan before them. */
 void
-takeAlong(const Slam6DResult& result, Poses& poses)
+takeAlong(const SlamState& state, Poses& poses)
 {
+  if (state.isWithoutSequence())
+    return; // scans without links stand beside the map
+  const Slam6DResult& result = state.result;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (result.verification->scans[i].tied)
       motion = poses[i] * result.scans[i].T_world_scan.inverse();
-    else if (result.floating.empty())
+    else
       poses[i] = motion * poses[i];
 }
 
@@ -45,7 +48,7 @@ class AdjustToLinks : public Stage {
                                   state.options.num_threads);
     if (poses.empty())
       return StageEnd::kDone;
-    takeAlong(result, poses);
+    takeAlong(state, poses);
     for (std::size_t i = 0; i < poses.size(); ++i)
       result.scans[i].T_world_scan = poses[i];
     state.keepInPlane();

@@ -30,10 +30,15 @@ public:
   run(SlamState& state, SlamContext& context) override
   {
     const RecoveryBudget before = state.recovery.budget();
+    const KnownPlaces beside = state.beside;
     try {
-      return look(state, context);
+      const StageEnd end = look(state, context);
+      if (end == StageEnd::kReverted)
+        state.beside = beside;
+      return end;
     } catch (...) { // cancelled: the next call looks with as much
       state.recovery.budget() = before;
+      state.beside = beside;
       throw;
     }
   }

@@ -29,7 +29,7 @@ class RecoverLost : public Stage {
       state.recovery.budget().begin(
           {scans.begin() + static_cast<std::ptrdiff_t>(first), scans.end()});
     }
-    state.map->recover(
+    state.beside = state.map->recover(
         [&](const Progress& now) {
           context.report({"recovering", now.done, now.total});
         },

@@ -65,6 +65,11 @@ lookAgain(StageList recovering, StageList relaxing);
 StagePtr
 returnUnconfirmed();
 
+/** Lost scans that match each other are registered with each other, as far as links confirm their
+ * matches. Each part follows the odometry from the scan before, beside the map: floating. */
+StagePtr
+registerPieces();
+
 /** The map is adjusted to its refined links, which know the poses of sparse scans better than matching
  * does; kept if the verdict stays and as many scans are connected. */
 StagePtr

@@ -123,6 +123,33 @@ TEST(Sensors, RingsAreRegistered)
   expectRight(ringRun());
 }
 
+TEST(Sensors, MapsOfRingsFollowTheirRefinedLinks)
+{
+  const DriftingRun run = ringRun();
+  const Slam6DResult result = registered(run);
+  ASSERT_GE(result.stages.size(), 2u);
+  EXPECT_EQ(result.stages.back().kind, pcl6d::StageKind::kLinks);
+  Slam6DResult before = result;
+  const auto& poses = result.stages[result.stages.size() - 2].history.back();
+  for (std::size_t i = 0; i < kScans; ++i)
+    before.scans[i].T_world_scan = poses[i];
+  EXPECT_LT(largestError(result, run), largestError(before, run));
+  for (std::size_t i = 1; i < kScans; ++i)
+    EXPECT_TRUE(result.verification->scans[i].bound);
+}
+
+TEST(Sensors, MapsStayAsMatchedWithoutRelaxationOrVerdict)
+{
+  pcl6d::Slam6DOptions options;
+  options.relaxation.reset();
+  for (const bool is_verified : {true, false}) {
+    options.verify = is_verified;
+    for (const pcl6d::StageResult& stage : registered(ringRun(), options).stages)
+      EXPECT_NE(stage.kind, pcl6d::StageKind::kLinks);
+    options.relaxation = pcl6d::Slam6DOptions().relaxation;
+  }
+}
+
 TEST(Sensors, RingsInAnyOrderAreRegistered)
 {
   Random random(7);

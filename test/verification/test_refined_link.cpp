@@ -3,10 +3,12 @@
 #include "fit_options.h"
 #include "support/points.h"
 
+#include <pcl6d/registration/twist.h>
 #include <pcl6d/verification/link_evidence.h>
 #include <pcl6d/verification/map_verifier.h>
 
 #include <cmath>
+#include <utility>
 
 using pcl6d::IcpModel;
 using pcl6d::LinkEvidence;
@@ -177,4 +179,41 @@ TEST(RefinedLink, ChangesNoVerdict)
     EXPECT_EQ(refined.links[k].deviation, equal.links[k].deviation);
     EXPECT_NE(refined.links[k].pull, equal.links[k].pull);
   }
+}
+
+TEST(RefinedLink, IsTakenOverWhereTheMapComesNearerToRest)
+{
+  Random random(11);
+  VerifiedScans scans;
+  for (const auto& pose : roomPoses())
+    scans.add(PillarRoom().scan(pose, random, 0.04));
+  pcl6d::LinkMemory memory;
+  MapVerifierOptions options;
+  options.refined = true;
+  options.memory = &memory;
+  const auto verified = [&](const auto& poses) {
+    return MapVerifier(scans.all(), namesOf(kRoomScans), options).verify(poses);
+  };
+  auto off = roomPoses();
+  for (std::size_t i = 1; i < off.size(); ++i)
+    off[i].translation().x() += 0.02 * (i % 2 == 0 ? 1 : -1);
+  const MapVerification before = verified(off), after = verified(roomPoses());
+  ASSERT_EQ(after.links.size(), before.links.size());
+  std::size_t taken_over = 0;
+  for (std::size_t k = 0; k < after.links.size(); ++k) {
+    ASSERT_TRUE(before.links[k].refined && after.links[k].refined);
+    const auto [from, to] = std::pair(after.links[k].from, after.links[k].to);
+    ASSERT_EQ(before.links[k].to, to);
+    const Eigen::Isometry3d then =
+        off[from].inverse() * off[to] * pcl6d::motionFromTwist(before.links[k].pull);
+    const Eigen::Isometry3d now = roomPoses()[from].inverse() * roomPoses()[to] *
+                                  pcl6d::motionFromTwist(after.links[k].pull);
+    if ((then.matrix() - now.matrix()).cwiseAbs().maxCoeff() > 1e-9)
+      continue; // rest lies farther from the new pose
+    ++taken_over;
+    EXPECT_NEAR(after.links[k].covariance.trace() / before.links[k].covariance.trace(),
+                1,
+                0.05);
+  }
+  EXPECT_GT(2 * taken_over, after.links.size());
 }

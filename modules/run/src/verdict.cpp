@@ -16,6 +16,13 @@
 namespace pcl6d {
 
 namespace {
+bool
+isFloating(const ScanResult& scan, const RunResult& run)
+{
+  return std::find(run.floating.begin(), run.floating.end(), scan.file) !=
+         run.floating.end();
+}
+
 /** \return ": a.pcd, b.pcd and 3 more" */
 std::string
 listed(const std::vector<std::string>& files)
@@ -61,6 +68,12 @@ describeLoose(const RunResult& run, std::ostream& text)
          << " not joined to the others (another site, or too little in common), beside "
             "them"
          << listed(run.floating);
+  else if (std::any_of(run.scans.begin(), run.scans.end(), [&](const auto& scan) {
+             return scan.recovered == RecoveredBy::kTogether && isFloating(scan, run);
+           }))
+    text << "\nNOT TO BE TRUSTED: " << count
+         << " beside the map: matched with each other only, placed by the given poses"
+         << listed(run.floating);
   else
     text << "\nNOT TO BE TRUSTED: no link joins " << count
          << " to the first one: " << run.floating.front()
@@ -91,7 +104,7 @@ describeUnconverged(const RunResult& run, std::ostream& text)
          << listed(held);
 }
 
-/** Scans that were lost and recovered, and how. */
+/** Scans that were lost and recovered, and how. Scans of pieces beside the map were not found again. */
 void
 describeRecovered(const RunResult& run, std::ostream& text)
 {
@@ -103,7 +116,7 @@ describeRecovered(const RunResult& run, std::ostream& text)
   for (const auto& [way, words] : ways) {
     std::vector<std::string> files;
     for (const auto& scan : run.scans)
-      if (scan.recovered == way)
+      if (scan.recovered == way && !isFloating(scan, run))
         files.push_back(scan.file);
     if (!files.empty())
       text << "\nlost where the odometry led, and found again " << words

@@ -99,14 +99,20 @@ without(const PoseMistake& mistake, const Eigen::Isometry3d& T)
   return right;
 }
 
-/** \return whether rays confirm the pose found by the surface fit */
+/** \return whether rays confirm the pose found by the surface fit
+ * \param[in] is_given the pose is that of the given poses; another one is confirmed only by surfaces
+ * that leave no motion open: two views of a floor agree wherever they lie on it */
 bool
-agree(const VerifiedScan& first, const VerifiedScan& second, const Eigen::Isometry3d& T)
+agree(const VerifiedScan& first,
+      const VerifiedScan& second,
+      const Eigen::Isometry3d& T,
+      bool is_given)
 {
   const double voxel = std::max(first.voxel(), second.voxel());
   const SurfaceFit fit =
       settledFit(first, second, T, voxel, kProbedPoints, kSteps, false);
-  if (fit.pairs == 0 || fit.displacement() > voxel) // surfaces do not fit here
+  if (fit.pairs == 0 || fit.displacement() > voxel || // surfaces do not fit here
+      (!is_given && fit.open_directions > 0))
     return false;
   const SightEvidence sight = sightBothWays(first, second, T, voxel, fit);
   return sight.patches >= kLeastPatches && sight.confirmation() >= kLeastConfirmation &&
@@ -150,7 +156,7 @@ likelyPoseMistake(const std::deque<VerifiedScan>& scans,
     for (const std::size_t i : asked) {
       const Eigen::Isometry3d T =
           without(mistakes[m], T_world_scan[i - 1].inverse() * T_world_scan[i]);
-      agreeing[m] += agree(scans[i - 1], scans[i], T) ? 1 : 0;
+      agreeing[m] += agree(scans[i - 1], scans[i], T, m == 0) ? 1 : 0;
     }
   });
   const auto best = static_cast<std::size_t>( // the first, simplest mistake among

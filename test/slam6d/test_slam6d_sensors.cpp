@@ -129,10 +129,10 @@ TEST(Sensors, MapsOfRingsFollowTheirRefinedLinks)
   const Slam6DResult result = registered(run);
   ASSERT_GE(result.stages.size(), 2u);
   EXPECT_EQ(result.stages.back().kind, pcl6d::StageKind::kLinks);
-  Slam6DResult before = result;
-  const auto& poses = result.stages[result.stages.size() - 2].history.back();
-  for (std::size_t i = 0; i < kScans; ++i)
-    before.scans[i].T_world_scan = poses[i];
+  Slam6DResult before = result; // the last stage that was not reverted
+  for (std::size_t k = 0; k + 1 < result.stages.size(); ++k)
+    for (std::size_t i = 0; i < kScans && !result.stages[k].history.empty(); ++i)
+      before.scans[i].T_world_scan = result.stages[k].history.back()[i];
   EXPECT_LT(largestError(result, run), largestError(before, run));
   for (std::size_t i = 1; i < kScans; ++i)
     EXPECT_TRUE(result.verification->scans[i].bound);

@@ -122,7 +122,7 @@ productsOf(const Localizability& fixed,
 }
 } // namespace
 
-void
+bool
 measureWeakest(const IcpTarget& target,
                const IcpSource& source,
                double max_distance,
@@ -130,17 +130,18 @@ measureWeakest(const IcpTarget& target,
 {
   if (!found.localizability || found.localizability->openDirections() > 0 ||
       !source.normals || source.normals->size() != source.points->size())
-    return;
+    return false;
   Localizability& fixed = *found.localizability;
   const auto products =
       productsOf(fixed, target, source, found.T_target_source, max_distance);
   if (!products || !products->isOpen())
-    return;
+    return false;
   fixed.eigenvalues(0) =
       std::min(fixed.eigenvalues(0), std::max(products->mean(), 0.0));
   if (found.status == Status::kOk)
     found.status = Status::kRankDeficient;
   found.covariance.reset();
+  return true;
 }
 
 bool

@@ -13,8 +13,9 @@ namespace pcl6d::slam6d {
  * if the mean is below Localizability::kOpen, and not surely above zero by the spread between cubes.
  * \param[in] max_distance [m] of pairs
  * \param[in,out] found by ICP; the first eigenvalue of its localizability may become smaller, and
- * the status kRankDeficient, without a covariance. No effect without normals */
-PCL6D_EXPORTS void // exported for its test
+ * the status kRankDeficient, without a covariance. No effect without normals
+ * \return whether the motion is open, and ICP's figure did not show it */
+PCL6D_EXPORTS bool // exported for its test
 measureWeakest(const IcpTarget& target,
                const IcpSource& source,
                double max_distance,

@@ -187,7 +187,7 @@ ScanMatcher::refines() const
          areNormalsUncertain(parameters_.line_spacing.value, parameters_.voxel.value);
 }
 
-IcpResult
+ScanMatcher::Match
 ScanMatcher::matchPoints(const IcpTarget& target,
                          const IcpModel& points,
                          const Eigen::Isometry3d& guess) const
@@ -196,10 +196,11 @@ ScanMatcher::matchPoints(const IcpTarget& target,
   IcpResult found = icp(target, points.source(), guess, options);
   if (refines())
     refineMatch(target, points.source(), options, found);
-  if (holds_open_directions_)
-    measureWeakest(target, points.source(), options.max_distance, found);
+  const bool is_noise =
+      holds_open_directions_ &&
+      measureWeakest(target, points.source(), options.max_distance, found);
   matchBalanced(target, points.source(), options, found);
-  return found;
+  return {found, is_noise};
 }
 
 void
@@ -218,7 +219,7 @@ ScanMatcher::matchFrom(const StartingPose& start,
   guess.translation() -= origin;
   predicted.translation() -= origin;
   const IcpTarget target = metascan_.around(origin);
-  IcpResult found = matchPoints(target, points, guess);
+  auto [found, is_fixed_by_noise] = matchPoints(target, points, guess);
   const bool is_held = holds_open_directions_ && !isWithoutPrior(start.from) &&
                        holdOpenDirections(predicted, found);
   scan.status = found.status;
@@ -238,8 +239,11 @@ ScanMatcher::matchFrom(const StartingPose& start,
   const Eigen::Isometry3d kept = scan.T_world_scan;
   scan.T_world_scan = found.T_target_source;
   scan.T_world_scan.translation() += origin;
+  if (is_fixed_by_noise) // at a wrong place, too: the place is tested like any other
+    scan.status = Status::kOk;
   if (!rejection && verify)
     rejection = verify(scan);
+  scan.status = found.status;
   scan.rejections.clear();
   if (rejection) {
     scan.rejections.push_back(std::move(rejection));

@@ -100,8 +100,13 @@ private:
     Eigen::Isometry3d T_world_scan = Eigen::Isometry3d::Identity();
   };
 
+  struct Match {
+    IcpResult found;
+    bool is_fixed_by_noise = false; ///< the weakest motion, see measureWeakest()
+  };
+
   /** \return the match of a scan from a pose, refined and balanced where needed */
-  IcpResult
+  Match
   matchPoints(const IcpTarget& target,
               const IcpModel& points,
               const Eigen::Isometry3d& guess) const;

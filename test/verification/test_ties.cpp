@@ -205,3 +205,24 @@ TEST(Ties, ACutBetweenOtherScansDoesNotContradictAScan)
   // All parts tested: a cut with every link leaves none for a background.
   EXPECT_TRUE(tiesOf(rest + 1, links_of(16), kOfCrowd).cut_from[scan]);
 }
+
+TEST(Ties, WithTheConstantsInUseAreThoseWithoutConstants)
+{
+  const std::vector<LinkCheck> links = {link(0, 1),
+                                        link(1, 2),
+                                        link(0, 2),
+                                        link(3, 4),
+                                        link(4, 5),
+                                        link(3, 5),
+                                        link(2, 3, LinkTrust::kGood, 2, 98)};
+  const auto tied = [&](const pcl6d::verification::CutConstants& constants) {
+    return tiesOf(6, links, kTieBackground, constants).tied;
+  };
+  pcl6d::verification::CutConstants constants = pcl6d::verification::cutConstants();
+  EXPECT_EQ(tied(constants), kFirstThree);
+  constants.cut_from = 1.1; // no probability is that large
+  EXPECT_EQ(tied(constants), kAll);
+  constants = pcl6d::verification::cutConstants();
+  constants.least_background = 0.02; // as many contradictions as the link has
+  EXPECT_EQ(tied(constants), kAll);
+}

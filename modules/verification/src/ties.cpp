@@ -94,10 +94,12 @@ private:
 /** Cuts contradicted parts of the map. */
 class Cutter {
 public:
-  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links, double cut_from)
+  Cutter(std::size_t num_scans,
+         const std::vector<LinkCheck>& links,
+         const CutConstants& constants)
   : links_(links)
-  , evidence_(links)
-  , cut_from_(cut_from)
+  , evidence_(links, constants)
+  , constants_(constants)
   , is_cut_(links.size(), false)
   , at_(num_scans)
   {
@@ -208,7 +210,7 @@ private:
     if (!is_held)
       return;
     cut.against = evidence_.against(cut.links, backgroundsOf(cut.links));
-    cut.probability = probabilityOf(cut.against);
+    cut.probability = probabilityOf(cut.against, constants_.even_share);
     if (cut.probability > worst.probability ||
         (cut.probability == worst.probability && cut.against.even > worst.against.even))
       worst = std::move(cut);
@@ -247,8 +249,9 @@ private:
       const Counted &a = own_[links_[k].from], &b = own_[links_[k].to];
       const auto contradicted = static_cast<double>(a.contradicted + b.contradicted);
       const auto patches = static_cast<double>(a.patches + b.patches);
-      backgrounds.push_back(std::max(
-          rest, (contradicted + rest * kRestPatches) / (patches + kRestPatches)));
+      const double weight = constants_.rest_patches;
+      backgrounds.push_back(
+          std::max(rest, (contradicted + rest * weight) / (patches + weight)));
     }
     for (const std::size_t k : cut)
       addToOwn(links_[k]);
@@ -268,7 +271,7 @@ private:
   bool
   cut(const Cut& worst)
   {
-    if (worst.probability < cut_from_)
+    if (worst.probability < constants_.cut_from)
       return false;
     std::size_t contradicted = 0, patches = 0;
     for (const std::size_t k : worst.links) {
@@ -307,7 +310,7 @@ private:
 
   const std::vector<LinkCheck>& links_;
   CutEvidence evidence_;
-  double cut_from_;                            ///< least probability
+  CutConstants constants_;
   std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
@@ -329,9 +332,18 @@ isTestable(const std::vector<LinkCheck>& links, double background)
 Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
 {
+  return tiesOf(num_scans, links, background, cutConstants());
+}
+
+Ties
+tiesOf(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       double background,
+       const CutConstants& constants)
+{
   if (num_scans == 0)
     return {};
-  Cutter cutter(num_scans, links, kGoodBelow);
+  Cutter cutter(num_scans, links, constants);
   if (isTestable(links, background)) {
     cutter.cutParts();
     cutter.cutBridges();
@@ -348,7 +360,9 @@ contradictionOfScan(std::size_t scan,
 {
   if (!isTestable(links, background))
     return {};
-  Cutter cutter(num_scans, links, cut_from);
+  CutConstants constants = cutConstants();
+  constants.cut_from = cut_from;
+  Cutter cutter(num_scans, links, constants);
   cutter.cutScan(scan);
   return cutter.ties().cut_from[scan];
 }

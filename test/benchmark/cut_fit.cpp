@@ -74,6 +74,8 @@ CutCounts&
 CutCounts::operator+=(const CutCounts& other)
 {
   runs += other.runs;
+  good += other.good;
+  doubted += other.doubted;
   wrong += other.wrong;
   false_goods += other.false_goods;
   right += other.right;
@@ -103,6 +105,8 @@ CutFit::counts(const CutConstants& constants)
     const bool is_wrong = isWrong(verdict.map), is_right = isRight(verdict.map);
     CutCounts& counts = place->second[run.sensor];
     ++counts.runs;
+    counts.good += verdict.map.call == TrustCall::kGood;
+    counts.doubted += verdict.map.call == TrustCall::kDoubted;
     counts.wrong += is_wrong;
     counts.false_goods += is_wrong && verdict.map.call == TrustCall::kGood;
     counts.right += is_right;
@@ -165,12 +169,14 @@ printLeftOutSensors(CutFit& fit, std::ostream& out)
   for (const LeftOutSensor& row : rows)
     all.fitted += row.fitted;
   rows.push_back(all);
-  out << "| sensor | runs | wrong | called good: in use | fitted to the others | right "
-         "| "
-         "doubted: in use | fitted |\n|---|---|---|---|---|---|---|---|\n";
+  out << "| sensor | runs | good | doubted | wrong | called good: in use | fitted to "
+         "the "
+         "others | right | doubted: in use | fitted |\n"
+         "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const LeftOutSensor& row : rows)
-    out << "| " << row.sensor << " | " << row.in_use.runs << " | " << row.in_use.wrong
-        << " | " << row.in_use.false_goods << " | " << row.fitted.false_goods << " | "
+    out << "| " << row.sensor << " | " << row.in_use.runs << " | " << row.in_use.good
+        << " | " << row.in_use.doubted << " | " << row.in_use.wrong << " | "
+        << row.in_use.false_goods << " | " << row.fitted.false_goods << " | "
         << row.in_use.right << " | " << row.in_use.false_doubts << " | "
         << row.fitted.false_doubts << " |\n";
   out << "\n| left out | maps with a wrong place | missed: in use | fitted | right "

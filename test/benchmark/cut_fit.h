@@ -13,7 +13,7 @@ namespace pcl6d::bench {
 
 /** \brief Verdicts on a group of runs. */
 struct CutCounts {
-  std::size_t runs = 0;
+  std::size_t runs = 0, good = 0, doubted = 0;
   std::size_t wrong = 0, false_goods = 0;  ///< wrong maps; called good
   std::size_t right = 0, false_doubts = 0; ///< right maps; doubted
   /** maps with consistent links at a wrong relative pose; with one left between connected scans */

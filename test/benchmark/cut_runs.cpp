@@ -86,8 +86,7 @@ readSuiteRun(const fs::path& results, const fs::path& folder)
   const Json& data = record.at("inputs").at("data");
   run.sensor = (data.contains("source") ? data.at("source") : data)
                    .at("options")
-                   .at("scanner")
-                   .get<std::string>();
+                   .value("scanner", std::string("default"));
   if (data.contains("damage") && data.at("damage").contains("foreign"))
     run.foreign = data.at("damage").at("foreign").get<std::size_t>();
   return run;

@@ -206,6 +206,23 @@ TEST(Ties, ACutBetweenOtherScansDoesNotContradictAScan)
   EXPECT_TRUE(tiesOf(rest + 1, links_of(16), kOfCrowd).cut_from[scan]);
 }
 
+TEST(Ties, AreNotScansOfAWrongPlaceThatAreNotConsecutive)
+{
+  // Scans 3, 10, 11 and 12 lie in an equal room: their links with each other contradict nothing, those
+  // with the rest 1.5 %.
+  const auto isDisplaced = [](std::size_t i) { return i == 3 || i >= 10; };
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i < 13; ++i)
+    for (std::size_t k = i + 1; k < 13; ++k)
+      if (k < i + 5 || i == 3) {
+        const bool is_across = isDisplaced(i) != isDisplaced(k);
+        links.push_back(link(i, k, LinkTrust::kGood, is_across ? 3 : 0, 200));
+      }
+  const Ties ties = tiesOf(13, links, kTieBackground);
+  for (std::size_t i = 0; i < 13; ++i)
+    EXPECT_EQ(ties.tied[i], !isDisplaced(i)) << i;
+}
+
 TEST(Ties, WithTheConstantsInUseAreThoseWithoutConstants)
 {
   const std::vector<LinkCheck> links = {link(0, 1),

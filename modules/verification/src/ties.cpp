@@ -121,12 +121,17 @@ public:
   {
     for (bool found = true; found;) {
       Cut worst;
+      std::vector<bool> part; // of the worst cut
       const std::size_t n = at_.size();
       for (std::size_t length = 1; length < n; ++length)
         for (std::size_t first = 0;
              first + length <= n && (first == 0 || length <= kLongestPart);
              ++first)
-          keepWorse(crossingOf(first, first + length), worst);
+          if (keepWorse(crossingOf(first, first + length), worst)) {
+            part.assign(n, false);
+            std::fill_n(part.begin() + static_cast<long>(first), length, true);
+          }
+      refinePart(part, worst);
       found = cut(worst);
     }
   }
@@ -174,6 +179,53 @@ public:
   }
 
 private:
+  struct Cut;
+
+  /** Adds scans to the part of a cut, or takes them away, one after the other, while the evidence
+   * against the links of the part grows. Scans that share a wrong place need not be consecutive, e.g.
+   * scans in a wrong order. */
+  void
+  refinePart(std::vector<bool>& part, Cut& worst)
+  {
+    for (bool is_better = !part.empty(); is_better;) {
+      is_better = false;
+      std::size_t moved = 0;
+      for (const std::size_t scan : endsOf(worst.links)) {
+        part[scan] = !part[scan];
+        if (keepWorse(crossingOf(part), worst)) {
+          is_better = true;
+          moved = scan;
+        }
+        part[scan] = !part[scan];
+      }
+      if (is_better)
+        part[moved] = !part[moved];
+    }
+  }
+
+  /** \return the scans of links, each once, ascending */
+  std::vector<std::size_t>
+  endsOf(const std::vector<std::size_t>& links) const
+  {
+    std::vector<std::size_t> ends;
+    for (const std::size_t k : links)
+      ends.insert(ends.end(), {links_[k].from, links_[k].to});
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+  }
+
+  /** \return the links from the scans of a part to other scans */
+  std::vector<std::size_t>
+  crossingOf(const std::vector<bool>& part) const
+  {
+    std::vector<std::size_t> crossing;
+    for (std::size_t k = 0; k < links_.size(); ++k)
+      if (part[links_[k].from] != part[links_[k].to])
+        crossing.push_back(k);
+    return crossing;
+  }
+
   struct Cut {
     double probability = 0;
     RaysAgainst against;
@@ -195,8 +247,9 @@ private:
   }
 
   /** Replaces the worst cut by a cut with more evidence against it and with a good link. Links
-   * already cut, and links between different components, are skipped. */
-  void
+   * already cut, and links between different components, are skipped. \return whether it was
+   * replaced */
+  bool
   keepWorse(const std::vector<std::size_t>& crossing, Cut& worst)
   {
     Cut cut;
@@ -208,12 +261,15 @@ private:
       is_held |= links_[k].trust == LinkTrust::kGood;
     }
     if (!is_held)
-      return;
+      return false;
     cut.against = evidence_.against(cut.links, backgroundsOf(cut.links));
     cut.probability = probabilityOf(cut.against, constants_.even_share);
-    if (cut.probability > worst.probability ||
-        (cut.probability == worst.probability && cut.against.even > worst.against.even))
+    const bool is_worse =
+        cut.probability > worst.probability ||
+        (cut.probability == worst.probability && cut.against.even > worst.against.even);
+    if (is_worse)
       worst = std::move(cut);
+    return is_worse;
   }
 
   /** \return the contradicted share in the other links, regularised for few links */

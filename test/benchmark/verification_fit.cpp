@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "calibration.h"
 #include "verification_fit.h"
+
+#include <pcl6d/verification/ties.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +39,13 @@ isShifted(const EvaluatedLink& link)
 }
 
 std::vector<std::string>
-setsOf(const std::vector<EvaluatedLink>& links)
+groupsOf(const std::vector<EvaluatedLink>& links)
 {
-  std::vector<std::string> sets;
+  std::vector<std::string> groups;
   for (const EvaluatedLink& link : links)
-    if (std::find(sets.begin(), sets.end(), link.set) == sets.end())
-      sets.push_back(link.set);
-  return sets;
+    if (std::find(groups.begin(), groups.end(), link.group) == groups.end())
+      groups.push_back(link.group);
+  return groups;
 }
 
 Links
@@ -65,10 +68,12 @@ countOf(const Links& links, const std::function<bool(const EvaluatedLink&)>& hol
       }));
 }
 
-/** What rays contradict in right links and at other places. */
+/** Share of the patches that rays contradict in right links and at other places; by default the
+ * constants in use. */
 struct ContradictionFit {
-  double background = 0;  ///< mean share of right links
-  double free, confirmed; ///< parameters of the beta distribution at other places
+  double background = verification::kBackground; ///< mean of right links
+  /** parameters of the beta distribution at other places */
+  double free = verification::kWrongFree, confirmed = verification::kWrongConfirmed;
 };
 
 double
@@ -83,10 +88,9 @@ shareOf(const EvaluatedLink& link)
 ContradictionFit
 fitOf(const Links& links)
 {
-  constexpr std::size_t kTelling = 30; // patches
   double right = 0, wrong = 0, wrong_sq = 0, num_right = 0, num_wrong = 0;
   for (const EvaluatedLink* link : links) {
-    if (link->evidence.sight.patches < kTelling)
+    if (link->evidence.sight.patches < verification::kLeastPatches)
       continue;
     const double share = shareOf(*link);
     if (isRight(*link)) {
@@ -100,7 +104,8 @@ fitOf(const Links& links)
     }
   }
   ContradictionFit fit;
-  fit.background = std::max(0.002, right / std::max(1.0, num_right));
+  fit.background =
+      std::max(verification::kLeastBackground, right / std::max(1.0, num_right));
   const double mean = wrong / std::max(1.0, num_wrong);
   const double variance =
       std::max(1e-6, wrong_sq / std::max(1.0, num_wrong) - mean * mean);
@@ -119,19 +124,46 @@ logBetaBinomial(double k, double n, double a, double b)
   return logBeta(k + a, n - k + b) - logBeta(a, b);
 }
 
-/** \return the probability that a link belongs elsewhere, by a fit */
+/** \return the probability that a link belongs elsewhere, by rays, as testLink() has it */
 double
 elsewhereBy(const ContradictionFit& fit, const EvaluatedLink& link)
 {
-  constexpr double kPrecision = 40, kPriorOdds = 0.1; // as calibration.h
+  using namespace verification;
   const auto n = static_cast<double>(link.evidence.sight.patches);
   const auto k = static_cast<double>(link.evidence.sight.contradicted_patches);
-  const double right = logBetaBinomial(
-      k, n, fit.background * kPrecision, (1 - fit.background) * kPrecision);
-  const double odds =
-      kPriorOdds *
-      std::exp(std::min(700.0, logBetaBinomial(k, n, fit.free, fit.confirmed) - right));
+  const auto rightWith = [&](double share) {
+    return logBetaBinomial(
+        k, n, share * kBackgroundPrecision, (1 - share) * kBackgroundPrecision);
+  };
+  const double right = std::max(rightWith(fit.background),
+                                rightWith(std::min(fit.background, kLeastBackground)));
+  const auto oddsOf = [&](double free, double confirmed) {
+    constexpr double kMost = 700; // limit of exp() in double
+    return std::exp(std::min(kMost, logBetaBinomial(k, n, free, confirmed) - right));
+  };
+  const double odds = kPriorOdds * ((1 - kEvenShare) * oddsOf(fit.free, fit.confirmed) +
+                                    kEvenShare * oddsOf(kEvenFree, kEvenConfirmed));
   return odds / (1 + odds);
+}
+
+/** \return whether the ray test alone calls a link good */
+bool
+isGoodBy(const ContradictionFit& fit, const EvaluatedLink& link)
+{
+  return elsewhereBy(fit, link) < verification::kGoodBelow &&
+         link.evidence.sight.patches >= verification::kLeastPatches;
+}
+
+/** \return the value that a share of the values exceeds; 0 without values */
+double
+exceededBy(double share, std::vector<double> values)
+{
+  if (values.empty())
+    return 0;
+  std::sort(values.begin(), values.end());
+  const auto below =
+      static_cast<std::size_t>((1 - share) * static_cast<double>(values.size()));
+  return values[std::min(below, values.size() - 1)];
 }
 
 /** \return the limit of a score (more is better) that doubts 3 % of right links */
@@ -154,70 +186,134 @@ ratio(std::size_t count, std::size_t of)
   return std::to_string(count) + " / " + std::to_string(of);
 }
 
+/** The links of a group, and those of all other groups. */
+struct LeftOut {
+  LeftOut(const std::vector<EvaluatedLink>& all, const std::string& group)
+  : others(linksWhere(all, [&](const auto& l) { return l.group != group; }))
+  , right(
+        linksWhere(all, [&](const auto& l) { return l.group == group && isRight(l); }))
+  , wrong(linksWhere(all,
+                     [&](const auto& l) { return l.group == group && isElsewhere(l); }))
+  , shifted(linksWhere(all,
+                       [&](const auto& l) { return l.group == group && isShifted(l); }))
+  {}
+
+  Links others, right, wrong, shifted;
+};
+
 void
-printLeftOut(const std::vector<EvaluatedLink>& all,
-             const std::string& set,
-             std::ostream& out)
+printLeftOut(const std::string& group, const LeftOut& links, std::ostream& out)
 {
-  const Links others = linksWhere(all, [&](const auto& l) { return l.set != set; });
-  const Links right =
-      linksWhere(all, [&](const auto& l) { return l.set == set && isRight(l); });
-  const Links wrong =
-      linksWhere(all, [&](const auto& l) { return l.set == set && isElsewhere(l); });
-  const ContradictionFit fit = fitOf(others);
-  const auto isGood = [&](const EvaluatedLink& l) {
-    return elsewhereBy(fit, l) < 0.01 && l.evidence.sight.patches >= 30;
+  const ContradictionFit fit = fitOf(links.others), in_use;
+  const auto numberGood = [&](const ContradictionFit& by) {
+    return countOf(links.wrong, [&](const auto& l) { return isGoodBy(by, l); });
   };
-  const auto isDoubted = [&](const EvaluatedLink& l) {
-    return elsewhereBy(fit, l) > 0.9;
+  const auto numberDoubted = [&](const ContradictionFit& by) {
+    return countOf(links.right, [&](const auto& l) {
+      return elsewhereBy(by, l) > verification::kWrongAbove;
+    });
   };
   const auto overlap = [](const EvaluatedLink& l) { return l.evidence.fit.overlap; };
   const auto rms = [](const EvaluatedLink& l) {
     return -l.evidence.fit.residual / l.evidence.voxel;
   };
-  const double least = limitOf(others, overlap), most = limitOf(others, rms);
-  out << "| " << set << " | " << std::setprecision(3) << fit.background << " | "
-      << fit.free << ", " << fit.confirmed << " | "
-      << ratio(countOf(right, isDoubted), right.size()) << " | "
-      << ratio(countOf(wrong, isGood), wrong.size()) << " | "
-      << countOf(wrong, [&](const auto& l) { return overlap(l) >= least; }) << " | "
-      << countOf(wrong, [&](const auto& l) { return rms(l) >= most; }) << " |\n";
+  const double least = limitOf(links.others, overlap),
+               most = limitOf(links.others, rms);
+  out << "| " << group << " | " << std::setprecision(3) << fitOf(links.right).background
+      << " | " << fit.background << " | " << fit.free << ", " << fit.confirmed << " | "
+      << numberDoubted(fit) << " | " << ratio(numberDoubted(in_use), links.right.size())
+      << " | " << numberGood(fit) << " | "
+      << ratio(numberGood(in_use), links.wrong.size()) << " | "
+      << countOf(links.wrong, [&](const auto& l) { return overlap(l) >= least; })
+      << " | " << countOf(links.wrong, [&](const auto& l) { return rms(l) >= most; })
+      << " |\n";
+}
+
+/** \return the shift that the surfaces of a link require, in standard deviations */
+double
+sigmasOf(const EvaluatedLink& link)
+{
+  return link.evidence.leaving() / link.evidence.deviation();
+}
+
+void
+printShiftsLeftOut(const std::string& group, const LeftOut& links, std::ostream& out)
+{
+  constexpr double kShare = 0.005;
+  // kLeavingSigmas with the limits of the probability, see surfacesAgainst().
+  const auto sigmasAt = [](double probability) {
+    const double log_odds =
+        std::log(probability / (1 - probability) / verification::kPriorOdds);
+    return std::sqrt(std::pow(verification::kLeavingSigmas, 2) + 2 * log_odds);
+  };
+  const double good = sigmasAt(verification::kGoodBelow),
+               wrong = sigmasAt(verification::kWrongAbove);
+  std::vector<double> others;
+  for (const EvaluatedLink* link : links.others)
+    if (isRight(*link) && link->evidence.fit.open_directions == 0)
+      others.push_back(sigmasOf(*link));
+  const double fitted = exceededBy(kShare, others);
+  const auto above = [&](double limit) {
+    return countOf(links.right, [&](const auto& l) {
+      return l.evidence.fit.open_directions == 0 && sigmasOf(l) > limit;
+    });
+  };
+  const auto below = [&](double limit) {
+    return countOf(links.shifted, [&](const auto& l) { return sigmasOf(l) < limit; });
+  };
+  out << "| " << group << " | " << std::setprecision(3) << fitted << " | "
+      << above(fitted) << " | " << above(good) << " | "
+      << ratio(above(wrong), links.right.size()) << " | " << below(fitted) << " | "
+      << ratio(below(good), links.shifted.size()) << " |\n";
 }
 } // namespace
 
 void
 printVerdicts(const std::vector<EvaluatedLink>& links, std::ostream& out)
 {
-  out << "| set | right: good / weak / wrong | other places: good / of | wrong shifts "
-         "and "
-         "turns called good / of |\n|---|---|---|---|\n";
-  for (const std::string& set : setsOf(links)) {
-    const auto of = [&](const auto& holds) {
-      return linksWhere(links, [&](const auto& l) { return l.set == set && holds(l); });
-    };
+  out << "| set or sensor | right: good / weak / wrong | other places: good / of | "
+         "wrong "
+         "shifts and turns called good / of |\n|---|---|---|---|\n";
+  for (const std::string& group : groupsOf(links)) {
     const auto with = [](LinkTrust trust) {
       return [trust](const EvaluatedLink& l) { return l.trust == trust; };
     };
-    const Links right = of(isRight), wrong = of(isElsewhere), shifted = of(isShifted);
-    const std::size_t good = countOf(right, with(LinkTrust::kGood));
-    const std::size_t doubted = countOf(right, with(LinkTrust::kWrong));
-    out << "| " << set << " | " << good << " / " << right.size() - good - doubted
+    const LeftOut of(links, group);
+    const std::size_t good = countOf(of.right, with(LinkTrust::kGood));
+    const std::size_t doubted = countOf(of.right, with(LinkTrust::kWrong));
+    out << "| " << group << " | " << good << " / " << of.right.size() - good - doubted
         << " / " << doubted << " | "
-        << ratio(countOf(wrong, with(LinkTrust::kGood)), wrong.size()) << " | "
-        << ratio(countOf(shifted, with(LinkTrust::kGood)), shifted.size()) << " |\n";
+        << ratio(countOf(of.wrong, with(LinkTrust::kGood)), of.wrong.size()) << " | "
+        << ratio(countOf(of.shifted, with(LinkTrust::kGood)), of.shifted.size())
+        << " |\n";
   }
 }
 
 void
 printLeaveOneOut(const std::vector<EvaluatedLink>& links, std::ostream& out)
 {
-  const std::vector<std::string> sets = setsOf(links);
-  if (sets.size() < 2)
+  const std::vector<std::string> groups = groupsOf(links);
+  if (groups.size() < 2)
     return;
-  out << "| left out | background of the others | wrong: beta | right doubted | other "
-         "places good by rays | by overlap | by rms |\n|---|---|---|---|---|---|---|\n";
-  for (const std::string& set : sets)
-    printLeftOut(links, set, out);
+  out << "| left out | its background | background of the others | wrong: beta | right "
+         "doubted: fitted | in use / of | other places good by rays: fitted | in use / "
+         "of "
+         "| by overlap | by rms |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& group : groups)
+    printLeftOut(group, LeftOut(links, group), out);
+}
+
+void
+printShiftLimits(const std::vector<EvaluatedLink>& links, std::ostream& out)
+{
+  const std::vector<std::string> groups = groupsOf(links);
+  if (groups.size() < 2)
+    return;
+  out << "| left out | limit [deviations] of the others | right above: fitted | above "
+         "the limit of good | above the limit of wrong / of | shifted below: fitted | "
+         "below the limit of good / of |\n|---|---|---|---|---|---|---|\n";
+  for (const std::string& group : groups)
+    printShiftsLeftOut(group, LeftOut(links, group), out);
 }
 
 } // namespace pcl6d::bench

@@ -158,6 +158,9 @@ TEST(LinkChecks, AreReadAsTheyWereWritten)
   links[0].from = 1;
   links[0].to = 4;
   links[0].trust = pcl6d::LinkTrust::kGood;
+  links[0].probability_wrong = 0.125;
+  links[0].patches = 320;
+  links[0].contradicted = 2;
   links[0].deviation = 0.0015;
   links[0].noticed.emplace();
   links[0].noticed->least = 0.02;
@@ -171,6 +174,9 @@ TEST(LinkChecks, AreReadAsTheyWereWritten)
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].to, 4U);
   EXPECT_EQ(read[0].trust, pcl6d::LinkTrust::kGood);
+  EXPECT_EQ(read[0].probability_wrong, 0.125);
+  EXPECT_EQ(read[0].patches, 320U);
+  EXPECT_EQ(read[0].contradicted, 2U);
   EXPECT_EQ(read[0].deviation, 0.0015);
   ASSERT_TRUE(read[0].noticed);
   EXPECT_EQ(read[0].noticed->most, 0.08);

@@ -148,6 +148,7 @@ TEST(SchemaVersions, ATableOfLinksOfTheFirstIsRead)
   const auto links = pcl6d::readLinkChecks(folder / "verification.csv");
   ASSERT_EQ(links.size(), 2u);
   EXPECT_EQ(links[0].trust, pcl6d::LinkTrust::kGood);
+  EXPECT_EQ(links[0].contradicted, 2u);
   ASSERT_TRUE(links[0].noticed);
   EXPECT_EQ(links[0].noticed->least, 0.015);
   EXPECT_EQ(links[0].noticed->most, 0.0625);

@@ -205,3 +205,41 @@ TEST(Ties, ACutBetweenOtherScansDoesNotContradictAScan)
   // All parts tested: a cut with every link leaves none for a background.
   EXPECT_TRUE(tiesOf(rest + 1, links_of(16), kOfCrowd).cut_from[scan]);
 }
+
+TEST(Ties, AreNotScansOfAWrongPlaceThatAreNotConsecutive)
+{
+  // Scans 3, 10, 11 and 12 lie in an equal room: their links with each other contradict nothing, those
+  // with the rest 1.5 %.
+  const auto isDisplaced = [](std::size_t i) { return i == 3 || i >= 10; };
+  std::vector<LinkCheck> links;
+  for (std::size_t i = 0; i < 13; ++i)
+    for (std::size_t k = i + 1; k < 13; ++k)
+      if (k < i + 5 || i == 3) {
+        const bool is_across = isDisplaced(i) != isDisplaced(k);
+        links.push_back(link(i, k, LinkTrust::kGood, is_across ? 3 : 0, 200));
+      }
+  const Ties ties = tiesOf(13, links, kTieBackground);
+  for (std::size_t i = 0; i < 13; ++i)
+    EXPECT_EQ(ties.tied[i], !isDisplaced(i)) << i;
+}
+
+TEST(Ties, WithTheConstantsInUseAreThoseWithoutConstants)
+{
+  const std::vector<LinkCheck> links = {link(0, 1),
+                                        link(1, 2),
+                                        link(0, 2),
+                                        link(3, 4),
+                                        link(4, 5),
+                                        link(3, 5),
+                                        link(2, 3, LinkTrust::kGood, 2, 98)};
+  const auto tied = [&](const pcl6d::verification::CutConstants& constants) {
+    return tiesOf(6, links, kTieBackground, constants).tied;
+  };
+  pcl6d::verification::CutConstants constants = pcl6d::verification::cutConstants();
+  EXPECT_EQ(tied(constants), kFirstThree);
+  constants.cut_from = 1.1; // no probability is that large
+  EXPECT_EQ(tied(constants), kAll);
+  constants = pcl6d::verification::cutConstants();
+  constants.least_background = 0.02; // as many contradictions as the link has
+  EXPECT_EQ(tied(constants), kAll);
+}

@@ -229,6 +229,9 @@ readLinkChecks(const std::filesystem::path& path)
     } catch (const BadArgument& error) {
       table.fail(error.what());
     }
+    table("probability_wrong", link.probability_wrong);
+    table("patches", link.patches);
+    table("violated", link.contradicted);
     table("shift", link.shift);
     table("deviation", link.deviation);
     table("open_directions", link.open_directions);

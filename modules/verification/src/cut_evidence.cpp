@@ -13,25 +13,6 @@ namespace {
 constexpr std::size_t kLevels = 22;
 constexpr double kLadder = 1.25;
 
-std::size_t
-levelOf(double background)
-{
-  std::size_t level = 0;
-  for (double b = kLeastCutBackground * kLadder; b < background && level + 1 < kLevels;
-       b *= kLadder)
-    ++level;
-  return level;
-}
-
-double
-backgroundOf(std::size_t level)
-{
-  double background = kLeastCutBackground;
-  for (std::size_t i = 0; i < level; ++i)
-    background *= kLadder;
-  return background;
-}
-
 /** Log ratio of two normal distributions: of twice the deviation, and of the deviation. */
 double
 surfacesAgainstLink(const LinkCheck& link)
@@ -44,9 +25,41 @@ surfacesAgainstLink(const LinkCheck& link)
 }
 } // namespace
 
-CutEvidence::CutEvidence(const std::vector<LinkCheck>& links)
-: links_(links), known_(links.size() * kLevels)
+CutConstants
+cutConstants()
+{
+  return {kEvenShare,
+          kCutPrecision,
+          kLeastCutBackground,
+          kRestPatches,
+          kCutSurfaces,
+          kGoodBelow};
+}
+
+CutEvidence::CutEvidence(const std::vector<LinkCheck>& links,
+                         const CutConstants& constants)
+: links_(links), constants_(constants), known_(links.size() * kLevels)
 {}
+
+std::size_t
+CutEvidence::levelOf(double background) const
+{
+  std::size_t level = 0;
+  for (double b = constants_.least_background * kLadder;
+       b < background && level + 1 < kLevels;
+       b *= kLadder)
+    ++level;
+  return level;
+}
+
+double
+CutEvidence::backgroundOf(std::size_t level) const
+{
+  double background = constants_.least_background;
+  for (std::size_t i = 0; i < level; ++i)
+    background *= kLadder;
+  return background;
+}
 
 RaysAgainst
 CutEvidence::against(const std::vector<std::size_t>& cut,
@@ -56,7 +69,7 @@ CutEvidence::against(const std::vector<std::size_t>& cut,
   for (std::size_t i = 0; i < cut.size(); ++i) {
     const std::size_t k = cut[i];
     const RaysAgainst& rays = raysOf(k, levelOf(backgrounds[i]));
-    const double surfaces = kCutSurfaces * surfacesAgainstLink(links_[k]);
+    const double surfaces = constants_.surfaces * surfacesAgainstLink(links_[k]);
     sum.usual += rays.usual + surfaces;
     sum.even += rays.even + surfaces;
   }
@@ -70,9 +83,10 @@ CutEvidence::raysOf(std::size_t link, std::size_t level)
 {
   std::optional<RaysAgainst>& known = known_[link * kLevels + level];
   if (!known)
-    known = raysAgainst(links_[link].contradicted,
-                        links_[link].patches,
-                        {backgroundOf(level), kLeastCutBackground, kCutPrecision});
+    known = raysAgainst(
+        links_[link].contradicted,
+        links_[link].patches,
+        {backgroundOf(level), constants_.least_background, constants_.precision});
   return *known;
 }
 

@@ -4,6 +4,7 @@
 #include "evidence_parts.h"
 
 #include <pcl6d/common/map_verification.h>
+#include <pcl6d/verification/ties.h>
 
 #include <cstddef>
 #include <optional>
@@ -16,7 +17,7 @@ namespace pcl6d::verification {
 class CutEvidence {
 public:
   /** \param[in] links kept by reference */
-  explicit CutEvidence(const std::vector<LinkCheck>& links);
+  CutEvidence(const std::vector<LinkCheck>& links, const CutConstants& constants);
 
   /** \return the log likelihood ratios. Links are correlated: m links count as sqrt(m) independent
    * links, each with their mean. \param[in] backgrounds one per link of the cut */
@@ -26,8 +27,13 @@ public:
 private:
   const RaysAgainst&
   raysOf(std::size_t link, std::size_t level);
+  std::size_t
+  levelOf(double background) const;
+  double
+  backgroundOf(std::size_t level) const;
 
   const std::vector<LinkCheck>& links_;
+  CutConstants constants_;
   std::vector<std::optional<RaysAgainst>> known_; ///< for each link: one per background
 };
 

@@ -54,12 +54,13 @@ struct RightLinks {
 RaysAgainst
 raysAgainst(std::size_t contradicted, std::size_t patches, const RightLinks& usual);
 
-/** \return the log likelihood ratio of both kinds, weighted by their frequency */
+/** \return the log likelihood ratio of both kinds, weighted by their frequency
+ * \param[in] even_share of poses along even surfaces among wrong poses, e.g. kEvenShare */
 double
-logRatioOf(const RaysAgainst& against);
+logRatioOf(const RaysAgainst& against, double even_share);
 
 /** \return the probability of a wrong pose of either kind, with the prior */
 double
-probabilityOf(const RaysAgainst& against);
+probabilityOf(const RaysAgainst& against, double even_share);
 
 } // namespace pcl6d::verification

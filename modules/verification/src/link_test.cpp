@@ -105,20 +105,20 @@ raysAgainst(std::size_t contradicted, std::size_t patches, const RightLinks& usu
 }
 
 double
-logRatioOf(const RaysAgainst& against)
+logRatioOf(const RaysAgainst& against, double even_share)
 {
   constexpr double kLeast = -700; // limit of exp() in double
   const double more = std::max(against.usual, against.even);
   return more +
-         portableLog((1 - kEvenShare) *
+         portableLog((1 - even_share) *
                          portableExp(std::max(against.usual - more, kLeast)) +
-                     kEvenShare * portableExp(std::max(against.even - more, kLeast)));
+                     even_share * portableExp(std::max(against.even - more, kLeast)));
 }
 
 double
-probabilityOf(const RaysAgainst& against)
+probabilityOf(const RaysAgainst& against, double even_share)
 {
-  return pcl6d::probabilityOf(logRatioOf(against));
+  return pcl6d::probabilityOf(logRatioOf(against, even_share));
 }
 } // namespace verification
 
@@ -154,10 +154,11 @@ contradictionBackground(const std::vector<LinkEvidence>& links)
     // Links wrong by the background of better links are no right links: of three scans, one at a
     // wrong place, the better half has one of them.
     if (i > 0 &&
-        probabilityOf(raysAgainst(
-            sights[i]->contradicted_patches,
-            sights[i]->patches,
-            {background(), kLeastBackground, kBackgroundPrecision})) > kWrongAbove)
+        probabilityOf(
+            raysAgainst(sights[i]->contradicted_patches,
+                        sights[i]->patches,
+                        {background(), kLeastBackground, kBackgroundPrecision}),
+            kEvenShare) > kWrongAbove)
       break;
     // The patches of a link share their causes: each counts less in a link with many.
     const auto n = static_cast<double>(sights[i]->patches);
@@ -175,7 +176,8 @@ testLink(const LinkEvidence& evidence, double background)
   const double rays =
       logRatioOf(raysAgainst(evidence.sight.contradicted_patches,
                              evidence.sight.patches,
-                             {background, kLeastBackground, kBackgroundPrecision}));
+                             {background, kLeastBackground, kBackgroundPrecision}),
+                 kEvenShare);
   const double surfaces = surfacesAgainst(evidence);
   LinkTestResult test_result;
   // Rays detect a different pose, surfaces a small shift: independent questions.

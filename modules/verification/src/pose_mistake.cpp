@@ -116,10 +116,11 @@ agree(const VerifiedScan& first,
     return false;
   const SightEvidence sight = sightBothWays(first, second, T, voxel, fit);
   return sight.patches >= kLeastPatches && sight.confirmation() >= kLeastConfirmation &&
-         probabilityOf(raysAgainst(
-             sight.contradicted_patches,
-             sight.patches,
-             {kBackground, kLeastBackground, kBackgroundPrecision})) < kWrongAbove / 2;
+         probabilityOf(
+             raysAgainst(sight.contradicted_patches,
+                         sight.patches,
+                         {kBackground, kLeastBackground, kBackgroundPrecision}),
+             kEvenShare) < kWrongAbove / 2;
 }
 
 /** \return the later scans of the pairs of successive scans with the longest steps */

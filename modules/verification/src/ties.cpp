@@ -94,10 +94,12 @@ private:
 /** Cuts contradicted parts of the map. */
 class Cutter {
 public:
-  Cutter(std::size_t num_scans, const std::vector<LinkCheck>& links, double cut_from)
+  Cutter(std::size_t num_scans,
+         const std::vector<LinkCheck>& links,
+         const CutConstants& constants)
   : links_(links)
-  , evidence_(links)
-  , cut_from_(cut_from)
+  , evidence_(links, constants)
+  , constants_(constants)
   , is_cut_(links.size(), false)
   , at_(num_scans)
   {
@@ -119,12 +121,17 @@ public:
   {
     for (bool found = true; found;) {
       Cut worst;
+      std::vector<bool> part; // of the worst cut
       const std::size_t n = at_.size();
       for (std::size_t length = 1; length < n; ++length)
         for (std::size_t first = 0;
              first + length <= n && (first == 0 || length <= kLongestPart);
              ++first)
-          keepWorse(crossingOf(first, first + length), worst);
+          if (keepWorse(crossingOf(first, first + length), worst)) {
+            part.assign(n, false);
+            std::fill_n(part.begin() + static_cast<long>(first), length, true);
+          }
+      refinePart(part, worst);
       found = cut(worst);
     }
   }
@@ -172,6 +179,53 @@ public:
   }
 
 private:
+  struct Cut;
+
+  /** Adds scans to the part of a cut, or takes them away, one after the other, while the evidence
+   * against the links of the part grows. Scans that share a wrong place need not be consecutive, e.g.
+   * scans in a wrong order. */
+  void
+  refinePart(std::vector<bool>& part, Cut& worst)
+  {
+    for (bool is_better = !part.empty(); is_better;) {
+      is_better = false;
+      std::size_t moved = 0;
+      for (const std::size_t scan : endsOf(worst.links)) {
+        part[scan] = !part[scan];
+        if (keepWorse(crossingOf(part), worst)) {
+          is_better = true;
+          moved = scan;
+        }
+        part[scan] = !part[scan];
+      }
+      if (is_better)
+        part[moved] = !part[moved];
+    }
+  }
+
+  /** \return the scans of links, each once, ascending */
+  std::vector<std::size_t>
+  endsOf(const std::vector<std::size_t>& links) const
+  {
+    std::vector<std::size_t> ends;
+    for (const std::size_t k : links)
+      ends.insert(ends.end(), {links_[k].from, links_[k].to});
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+  }
+
+  /** \return the links from the scans of a part to other scans */
+  std::vector<std::size_t>
+  crossingOf(const std::vector<bool>& part) const
+  {
+    std::vector<std::size_t> crossing;
+    for (std::size_t k = 0; k < links_.size(); ++k)
+      if (part[links_[k].from] != part[links_[k].to])
+        crossing.push_back(k);
+    return crossing;
+  }
+
   struct Cut {
     double probability = 0;
     RaysAgainst against;
@@ -193,8 +247,9 @@ private:
   }
 
   /** Replaces the worst cut by a cut with more evidence against it and with a good link. Links
-   * already cut, and links between different components, are skipped. */
-  void
+   * already cut, and links between different components, are skipped. \return whether it was
+   * replaced */
+  bool
   keepWorse(const std::vector<std::size_t>& crossing, Cut& worst)
   {
     Cut cut;
@@ -206,12 +261,15 @@ private:
       is_held |= links_[k].trust == LinkTrust::kGood;
     }
     if (!is_held)
-      return;
+      return false;
     cut.against = evidence_.against(cut.links, backgroundsOf(cut.links));
-    cut.probability = probabilityOf(cut.against);
-    if (cut.probability > worst.probability ||
-        (cut.probability == worst.probability && cut.against.even > worst.against.even))
+    cut.probability = probabilityOf(cut.against, constants_.even_share);
+    const bool is_worse =
+        cut.probability > worst.probability ||
+        (cut.probability == worst.probability && cut.against.even > worst.against.even);
+    if (is_worse)
       worst = std::move(cut);
+    return is_worse;
   }
 
   /** \return the contradicted share in the other links, regularised for few links */
@@ -247,8 +305,9 @@ private:
       const Counted &a = own_[links_[k].from], &b = own_[links_[k].to];
       const auto contradicted = static_cast<double>(a.contradicted + b.contradicted);
       const auto patches = static_cast<double>(a.patches + b.patches);
-      backgrounds.push_back(std::max(
-          rest, (contradicted + rest * kRestPatches) / (patches + kRestPatches)));
+      const double weight = constants_.rest_patches;
+      backgrounds.push_back(
+          std::max(rest, (contradicted + rest * weight) / (patches + weight)));
     }
     for (const std::size_t k : cut)
       addToOwn(links_[k]);
@@ -268,7 +327,7 @@ private:
   bool
   cut(const Cut& worst)
   {
-    if (worst.probability < cut_from_)
+    if (worst.probability < constants_.cut_from)
       return false;
     std::size_t contradicted = 0, patches = 0;
     for (const std::size_t k : worst.links) {
@@ -307,7 +366,7 @@ private:
 
   const std::vector<LinkCheck>& links_;
   CutEvidence evidence_;
-  double cut_from_;                            ///< least probability
+  CutConstants constants_;
   std::size_t contradicted_ = 0, patches_ = 0; ///< of all links
   std::vector<bool> is_cut_;                   ///< one per link
   std::vector<std::vector<std::size_t>> at_;   ///< links of each scan
@@ -329,9 +388,18 @@ isTestable(const std::vector<LinkCheck>& links, double background)
 Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background)
 {
+  return tiesOf(num_scans, links, background, cutConstants());
+}
+
+Ties
+tiesOf(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       double background,
+       const CutConstants& constants)
+{
   if (num_scans == 0)
     return {};
-  Cutter cutter(num_scans, links, kGoodBelow);
+  Cutter cutter(num_scans, links, constants);
   if (isTestable(links, background)) {
     cutter.cutParts();
     cutter.cutBridges();
@@ -348,7 +416,9 @@ contradictionOfScan(std::size_t scan,
 {
   if (!isTestable(links, background))
     return {};
-  Cutter cutter(num_scans, links, cut_from);
+  CutConstants constants = cutConstants();
+  constants.cut_from = cut_from;
+  Cutter cutter(num_scans, links, constants);
   cutter.cutScan(scan);
   return cutter.ties().cut_from[scan];
 }

@@ -259,7 +259,7 @@ private:
         raysAgainst(sight.contradicted_patches,
                     sight.patches,
                     {kMostBackground, kLeastBackground, kBackgroundPrecision});
-    return probabilityOf(against) > kWrongAbove ||
+    return probabilityOf(against, kEvenShare) > kWrongAbove ||
            static_cast<double>(sight.confirmed_patches) < kLeastConfirmed * confirmed_;
   }
 

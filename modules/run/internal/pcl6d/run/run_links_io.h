@@ -21,8 +21,9 @@ writeRunLinks(const std::filesystem::path& path, const std::vector<RunLink>& lin
 void
 writeLinkChecks(const std::filesystem::path& path, const std::vector<LinkCheck>& links);
 
-/** \brief Reads verification.csv: scans by their numbers, trust, shift, deviation, open directions,
- * detectable errors and reason; further columns are optional.
+/** \brief Reads verification.csv: scans by their numbers, trust, probability, patches, shift,
+ * deviation, open directions, detectable errors and reason; columns that a graph does not need are
+ * optional.
  * \throws IoFailed as readRunLinks() \ingroup run */
 std::vector<LinkCheck>
 readLinkChecks(const std::filesystem::path& path);

@@ -22,6 +22,21 @@ struct Ties {
  * links between two parts of a map together. */
 constexpr double kGoodBelow = 0.01;
 
+/** \brief Constants of the test of cuts: of all links between two parts of a map together. */
+struct CutConstants {
+  double even_share; ///< of poses along even surfaces among wrong poses
+  double
+      precision; ///< of the background: sum of both parameters of a beta distribution
+  double least_background; ///< share of contradicted patches
+  double rest_patches; ///< weight of the rest of the map in the background of a link
+  double surfaces;     ///< weight of the surface evidence
+  double cut_from;     ///< least probability of a wrong place that cuts a part off
+};
+
+/** \return the constants in use, with their sources in calibration.h */
+CutConstants
+cutConstants();
+
 /** \brief Connects scans by consistent and unverified links, except the links between two parts of
  * a map that jointly contradict their relative pose: after a jump of the odometry to a similar
  * place, a few links across the jump may seem consistent. Tested parts: consecutive scans, because
@@ -29,6 +44,13 @@ constexpr double kGoodBelow = 0.01;
  * \param[in] background of the map */
 Ties
 tiesOf(std::size_t num_scans, const std::vector<LinkCheck>& links, double background);
+
+/** \brief The same with other constants, for calibration (test/benchmark/bench_cuts.cpp). */
+Ties
+tiesOf(std::size_t num_scans,
+       const std::vector<LinkCheck>& links,
+       double background,
+       const CutConstants& constants);
 
 /** \brief Tests a scan as tiesOf() tests parts, but no other part: where few links are known besides
  * those of the scan, a cut between other scans leaves no link for a background.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cluster_width.h"
 #include "mixed_returns.h"
+#include "thin_clusters.h"
 
 namespace pcl6d::moving_objects {
 
@@ -27,7 +28,8 @@ areMixedReturns(const TestedPositions& observed,
   }
   return 2 * between > cluster.size() &&
          (observed.cell < kFinestCells * RayImageOptions().finest ||
-          arcWidthOf(directions) < kCellsLookedAt * observed.cell);
+          arcWidthOf(directions) < kCellsLookedAt * observed.cell ||
+          !hasSolidPart(observed, own, cluster));
 }
 
 } // namespace pcl6d::moving_objects

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cluster_width.h"
 #include "edge_lines.h"
 #include "mixed_returns.h"
 #include "moving_clusters.h"
 #include "thin_clusters.h"
 
 #include <pcl6d/common/components.h>
+#include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
@@ -38,6 +40,15 @@ constexpr float kTimesAsFar = 3;
 
 /** [standard deviations] A surface this near to the middle of an object may be its own. */
 constexpr float kSideSigmas = 3;
+
+/** [spacings] A narrower part is a single row of points, which proves no width. */
+constexpr double kRowSpacings = 1.1;
+
+/** Number of parts of a surface whose width is measured: the widest quarter decides. */
+constexpr std::size_t kWindows = 64;
+
+/** [spacings] Radius of a part of a surface, at least: its neighbours on all sides. */
+constexpr double kWindowCells = 1.5;
 
 constexpr std::size_t kPlacesPerBlock = 256;
 
@@ -223,44 +234,69 @@ MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
   return chance > (is_hit ? 0 : kByChance);
 }
 
-/** \return mean square [m^2] about its middle of the surface that was measured at places. Range noise
- * spreads the places along their rays, which is no extent of the surface. A place of a reduced scan
- * stands for the points of its voxel, which fill it but for the gap to the next ray. */
+/** \return mean square [m^2] of the surface about a place. Range noise spreads the places along their
+ * rays, which is no extent of the surface. A place of a reduced scan stands for the points of its voxel,
+ * which fill it but for the gap to the next ray. */
 Eigen::Matrix3d
-MovingClusters::scatterOfSurface(const std::vector<std::size_t>& places) const
+MovingClusters::spreadOfPlace(std::size_t place) const
 {
   const SeenScan& observed = observer_votes_.observed();
-  std::vector<Eigen::Vector3d> at;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::size_t place : places) {
-    const Eigen::Vector3f& p = observed_.places[place];
-    const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
-    at.push_back(p.cast<double>());
-    scatter -= observed_.noise * observed_.noise * ray * ray.transpose();
-    const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
-    const auto next = tree_.nearestK(p, 2);
-    if (normal.isZero() || next.size() < 2)
-      continue;
-    const double filled =
-        observed.voxel - observed_.cell * (p - observed_.origin).norm();
-    const double edge = std::min(std::max(0.0, filled),
-                                 static_cast<double>(std::sqrt(next[1].distance_sq)));
-    scatter +=
-        edge * edge / 12 * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
-  }
-  return scatterOf(at) + scatter / static_cast<double>(places.size());
+  const Eigen::Vector3f& p = observed_.places[place];
+  const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
+  Eigen::Matrix3d spread = -observed_.noise * observed_.noise * ray * ray.transpose();
+  const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
+  const auto next = tree_.nearestK(p, 2);
+  if (normal.isZero() || next.size() < 2)
+    return spread;
+  const double filled = observed.voxel - observed_.cell * (p - observed_.origin).norm();
+  const double edge = std::min(std::max(0.0, filled),
+                               static_cast<double>(std::sqrt(next[1].distance_sq)));
+  return spread +
+         edge * edge / 12 * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
 }
 
-/** \return the probability that no ray of an observer meets the surface at places */
+/** \return the probability that no ray of an observer meets the surface at places. The rays are a gap
+ * apart, so the surface within a gap of a place decides: a bent row of points, like the two sides of
+ * an edge or the foot and the top of a lamp, is no wider than a straight one. */
 double
 MovingClusters::chanceToPassBeside(const std::vector<std::size_t>& places,
                                    const Observer& observer) const
 {
-  const Eigen::Vector3d middle = middleOf(places);
-  const Eigen::Vector3d ray = middle - observer.originInObserved().cast<double>();
-  const Eigen::Vector2d extent =
-      seenExtentOf(scatterOfSurface(places), ray.normalized());
-  return 1 - (extent / observer.gapAt(middle.cast<float>())).cwiseMin(1).prod();
+  const Eigen::Vector3d ray =
+      middleOf(places) - observer.originInObserved().cast<double>();
+  const double gap = observer.gapAt(middleOf(places).cast<float>());
+  Points seen;
+  std::vector<Eigen::Matrix3d> spreads;
+  for (const std::size_t place : places) {
+    const Eigen::Vector3d p = observed_.places[place].cast<double>();
+    seen.emplace_back((p - p.dot(ray) / ray.squaredNorm() * ray).cast<float>());
+    spreads.push_back(spreadOfPlace(place));
+  }
+  const PointTree tree(seen, 1);
+  std::vector<double> chances;
+  const std::size_t step = 1 + (places.size() - 1) / kWindows;
+  for (std::size_t k = 0; k < places.size(); k += step) {
+    const double own_gap =
+        observed_.cell * (observed_.places[places[k]] - observed_.origin).norm();
+    const double apart =
+        kWindowCells * std::max(own_gap, observer_votes_.observed().voxel);
+    const auto radius = static_cast<float>(std::max(gap, apart));
+    std::vector<Eigen::Vector3d> at;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Neighbour& n : tree.withinRadius(seen[k], radius * radius)) {
+      const auto i = static_cast<std::size_t>(n.index);
+      at.push_back(seen[i].cast<double>());
+      spread += spreads[i];
+    }
+    const Eigen::Vector2d extent = seenExtentOf(
+        scatterOf(at) + spread / static_cast<double>(at.size()), ray.normalized());
+    const Eigen::Vector2d proven =
+        (extent.array().square() + own_gap * own_gap).sqrt() - own_gap;
+    chances.push_back(extent.x() < kRowSpacings * own_gap
+                          ? 1
+                          : 1 - (proven / gap).cwiseMin(1).prod());
+  }
+  return upperMedian(std::move(chances));
 }
 
 /** \return the scans that observed a dynamic object while at rest: scans that hit most of its

@@ -48,7 +48,7 @@ private:
   bool
   isPassedBeside(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
   Eigen::Matrix3d
-  scatterOfSurface(const std::vector<std::size_t>& places) const;
+  spreadOfPlace(std::size_t place) const;
   double
   chanceToPassBeside(const std::vector<std::size_t>& places,
                      const Observer& observer) const;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_width.h"
 #include "edge_lines.h"
 #include "mixed_returns.h"
 #include "moving_clusters.h"
+#include "noisy_clusters.h"
+#include "passing_rays.h"
 #include "thin_clusters.h"
 
 #include <pcl6d/common/components.h>
-#include <pcl6d/common/median.h>
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace pcl6d::moving_objects {
@@ -21,10 +20,6 @@ namespace {
 constexpr double kNearCells = 3;
 /** [standard deviations] Largest difference of neighbours along the ray, by noise alone. */
 constexpr double kNearSigmas = 6;
-
-/** Largest probability that the rays of all scans passed beside a cluster by chance: 5 %, as in the
- * other tests. */
-constexpr double kByChance = 0.05;
 
 /** A cluster with hits is dynamic if at least this number of scans saw through most of its
  * places: the pose of a single scan may be wrong. */
@@ -40,15 +35,6 @@ constexpr float kTimesAsFar = 3;
 
 /** [standard deviations] A surface this near to the middle of an object may be its own. */
 constexpr float kSideSigmas = 3;
-
-/** [spacings] A narrower part is a single row of points, which proves no width. */
-constexpr double kRowSpacings = 1.1;
-
-/** Number of parts of a surface whose width is measured: the widest quarter decides. */
-constexpr std::size_t kWindows = 64;
-
-/** [spacings] Radius of a part of a surface, at least: its neighbours on all sides. */
-constexpr double kWindowCells = 1.5;
 
 constexpr std::size_t kPlacesPerBlock = 256;
 
@@ -140,7 +126,7 @@ MovingClusters::findClusters()
       continue;
     for (const std::size_t place : cluster)
       mover_[place] = static_cast<int>(movers_.size());
-    const Eigen::Vector3f middle = middleOf(cluster).cast<float>();
+    const Eigen::Vector3f middle = middleOf(observed_, cluster).cast<float>();
     float farthest = 0;
     for (const std::size_t place : cluster)
       farthest = std::max(farthest, (observed_.places[place] - middle).norm());
@@ -196,107 +182,10 @@ MovingClusters::wasGone(const std::vector<std::size_t>& cluster,
   const bool was_seen_there = 2 * hits > misses;
   if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, most)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster, telling);
-}
-
-Eigen::Vector3d
-MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::size_t place : cluster)
-    sum += observed_.places[place].cast<double>();
-  return sum / static_cast<double>(cluster.size());
-}
-
-/** \return whether the rays of all scans may have passed beside the places that they missed, by
- * chance. Rays a gap g apart miss a surface of seen extents w and h with probability
- * 1 - min(1, w / g) min(1, h / g), independently for each scan. A surface seen at a flat angle, like
- * the edge of a platform, has almost no width. A cluster that another scan hit, like a pole or the
- * top of a table, is passed beside unless one of the scans must have hit it. */
-bool
-MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
-                               std::uint16_t telling) const
-{
-  double chance = 1;
-  bool is_hit = false;
-  for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j) {
-    std::size_t hit = 0;
-    std::vector<std::size_t> missed;
-    for (const std::size_t place : cluster) {
-      hit += votes_[place].hits >> j & 1U;
-      if ((votes_[place].misses & telling & 1U << j) != 0)
-        missed.push_back(place);
-    }
-    is_hit = is_hit || 2 * hit > cluster.size();
-    if (!missed.empty())
-      chance *= chanceToPassBeside(missed, observer_votes_.observers()[j]);
-  }
-  return chance > (is_hit ? 0 : kByChance);
-}
-
-/** \return mean square [m^2] of the surface about a place. Range noise spreads the places along their
- * rays, which is no extent of the surface. A place of a reduced scan stands for the points of its voxel,
- * which fill it but for the gap to the next ray. */
-Eigen::Matrix3d
-MovingClusters::spreadOfPlace(std::size_t place) const
-{
-  const SeenScan& observed = observer_votes_.observed();
-  const Eigen::Vector3f& p = observed_.places[place];
-  const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
-  Eigen::Matrix3d spread = -observed_.noise * observed_.noise * ray * ray.transpose();
-  const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
-  const auto next = tree_.nearestK(p, 2);
-  if (normal.isZero() || next.size() < 2)
-    return spread;
-  const double filled = observed.voxel - observed_.cell * (p - observed_.origin).norm();
-  const double edge = std::min(std::max(0.0, filled),
-                               static_cast<double>(std::sqrt(next[1].distance_sq)));
-  return spread +
-         edge * edge / 12 * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
-}
-
-/** \return the probability that no ray of an observer meets the surface at places. The rays are a gap
- * apart, so the surface within a gap of a place decides: a bent row of points, like the two sides of
- * an edge or the foot and the top of a lamp, is no wider than a straight one. */
-double
-MovingClusters::chanceToPassBeside(const std::vector<std::size_t>& places,
-                                   const Observer& observer) const
-{
-  const Eigen::Vector3d ray =
-      middleOf(places) - observer.originInObserved().cast<double>();
-  const double gap = observer.gapAt(middleOf(places).cast<float>());
-  Points seen;
-  std::vector<Eigen::Matrix3d> spreads;
-  for (const std::size_t place : places) {
-    const Eigen::Vector3d p = observed_.places[place].cast<double>();
-    seen.emplace_back((p - p.dot(ray) / ray.squaredNorm() * ray).cast<float>());
-    spreads.push_back(spreadOfPlace(place));
-  }
-  const PointTree tree(seen, 1);
-  std::vector<double> chances;
-  const std::size_t step = 1 + (places.size() - 1) / kWindows;
-  for (std::size_t k = 0; k < places.size(); k += step) {
-    const double own_gap =
-        observed_.cell * (observed_.places[places[k]] - observed_.origin).norm();
-    const double apart =
-        kWindowCells * std::max(own_gap, observer_votes_.observed().voxel);
-    const auto radius = static_cast<float>(std::max(gap, apart));
-    std::vector<Eigen::Vector3d> at;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Neighbour& n : tree.withinRadius(seen[k], radius * radius)) {
-      const auto i = static_cast<std::size_t>(n.index);
-      at.push_back(seen[i].cast<double>());
-      spread += spreads[i];
-    }
-    const Eigen::Vector2d extent = seenExtentOf(
-        scatterOf(at) + spread / static_cast<double>(at.size()), ray.normalized());
-    const Eigen::Vector2d proven =
-        (extent.array().square() + own_gap * own_gap).sqrt() - own_gap;
-    chances.push_back(extent.x() < kRowSpacings * own_gap
-                          ? 1
-                          : 1 - (proven / gap).cwiseMin(1).prod());
-  }
-  return upperMedian(std::move(chances));
+  return excess >= kLeastMisses &&
+         !PassingRays(observed_, observer_votes_, tree_)
+              .isPassedBeside(cluster, telling) &&
+         !isNoise(observed_, observer_votes_, tree_, cluster, telling);
 }
 
 /** \return the scans that observed a dynamic object while at rest: scans that hit most of its

@@ -45,15 +45,6 @@ private:
   moves(const std::vector<std::size_t>& cluster) const;
   bool
   wasGone(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
-  bool
-  isPassedBeside(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
-  Eigen::Matrix3d
-  spreadOfPlace(std::size_t place) const;
-  double
-  chanceToPassBeside(const std::vector<std::size_t>& places,
-                     const Observer& observer) const;
-  Eigen::Vector3d
-  middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t
   stayedFor(const std::vector<std::size_t>& cluster) const;
   void

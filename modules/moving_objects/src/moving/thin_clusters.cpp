@@ -42,15 +42,6 @@ isInsideSurface(const TestedPositions& observed, const RayImage& own, std::size_
          Sight::kBehind;
 }
 
-Eigen::Vector3d
-middleOfPlaces(const TestedPositions& observed, const std::vector<std::size_t>& cluster)
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::size_t place : cluster)
-    sum += observed.places[place].cast<double>();
-  return sum / static_cast<double>(cluster.size());
-}
-
 /** \return twice the area of a triangle; positive: c is to the left of the way from a to b */
 double
 turnOf(const Planar& a, const Planar& b, const Planar& c)
@@ -135,7 +126,7 @@ bool
 isPorous(const TestedPositions& observed, const std::vector<std::size_t>& cluster)
 {
   const Eigen::Vector3d ahead =
-      (middleOfPlaces(observed, cluster) - observed.origin.cast<double>()).normalized();
+      (middleOf(observed, cluster) - observed.origin.cast<double>()).normalized();
   const Eigen::Vector3d x = ahead.unitOrthogonal(), y = ahead.cross(x);
   const auto seenAt = [&](const Eigen::Vector3d& way) {
     return Planar(x.dot(way) / ahead.dot(way), y.dot(way) / ahead.dot(way));
@@ -181,7 +172,7 @@ observersAsFine(const TestedPositions& observed,
                 const ObserverVotes& votes,
                 const std::vector<std::size_t>& cluster)
 {
-  const Eigen::Vector3f middle = middleOfPlaces(observed, cluster).cast<float>();
+  const Eigen::Vector3f middle = middleOf(observed, cluster).cast<float>();
   const double cell = std::max(votes.observed().rays->cellAt(middle), observed.cell);
   double gap = cell * (middle - observed.origin).norm();
   double steep = steepnessFrom(observed.origin, observed, votes, cluster);

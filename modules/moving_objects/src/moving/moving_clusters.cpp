@@ -4,6 +4,7 @@
 #include "moving_clusters.h"
 #include "noisy_clusters.h"
 #include "passing_rays.h"
+#include "surface_fragments.h"
 #include "thin_clusters.h"
 
 #include <pcl6d/common/components.h>
@@ -283,15 +284,20 @@ MovingClusters::grow()
   }
 }
 
-/** Removes each object that is a single line of cells, seen from the scanner. */
+/** Removes each object that is a single line of cells, seen from the scanner, or a piece of a larger
+ * surface. */
 void
-MovingClusters::dropLines()
+MovingClusters::dropParts()
 {
   const std::vector<bool> is_line =
       areEdgeLines(observed_, mover_, movers_.size(), num_threads_);
-  for (int& mover : mover_)
-    if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
+  const std::vector<bool> is_fragment = areFragments(
+      observed_, observer_votes_.observed(), mover_, movers_.size(), tree_);
+  for (int& mover : mover_) {
+    const auto of = static_cast<std::size_t>(mover);
+    if (mover != kNobody && (is_line[of] || is_fragment[of]))
       mover = kNobody;
+  }
 }
 
 std::vector<PointMotion>
@@ -301,7 +307,7 @@ MovingClusters::decide()
     tree_ = PointTree(observed_.places, num_threads_);
     findClusters();
     grow();
-    dropLines();
+    dropParts();
   }
   std::vector<PointMotion> motion(votes_.size(), PointMotion::kUnknown);
   for (std::size_t place = 0; place < votes_.size(); ++place)

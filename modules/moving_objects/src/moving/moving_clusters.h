@@ -54,7 +54,7 @@ private:
   int
   ownerOf(std::size_t place, bool is_near) const;
   void
-  dropLines();
+  dropParts();
 
   const TestedPositions observed_;
   const ObserverVotes& observer_votes_;

@@ -94,7 +94,7 @@ hitsBy(const ObserverVotes& votes,
   }
   return hit > missed ? hit : 0;
 }
-/** \return mean cosine of the angle between the normals at places and the rays from an origin */
+/** \return the mean cosine of the angle between the normals at places and the rays from an origin */
 double
 steepnessFrom(const Eigen::Vector3f& origin,
               const TestedPositions& observed,
@@ -185,10 +185,11 @@ observersAsFine(const TestedPositions& observed,
       gap = std::max(gap, votes.observers()[j].gapAt(middle));
       steep = std::min(steep, steepness(j));
     }
+  const bool is_porous = isPorous(observed, cluster);
   unsigned as_fine = 0;
   for (std::size_t j = 0; j < votes.observers().size(); ++j)
     as_fine |= votes.observers()[j].gapAt(middle) <= gap &&
-                       (!isPorous(observed, cluster) || steepness(j) >= steep)
+                       (!is_porous || steepness(j) >= steep)
                    ? 1U << j
                    : 0U;
   return static_cast<std::uint16_t>(as_fine);

@@ -9,14 +9,14 @@ namespace pcl6d::moving_objects {
 namespace {
 /** [spacings] Radius about a place. Of a pane that returns one ray in five, some 50 places lie within,
  * in a scan as dense as its cells. */
-constexpr float kReach = 9;
+constexpr float kFragmentReach = 9;
 
 /** [standard deviations] of the noise: a place this near to a plane is on the plane. */
 constexpr float kOnPlaneSigmas = 3;
 
 /** A surface may bend away from the plane of a place by this share of the distance, as for the voxels
  * of an observer. */
-constexpr float kBend = 0.1F;
+constexpr float kFragmentBend = 0.1F;
 
 /** Least number of places of no object for each place of the object: two of three. */
 constexpr std::size_t kOutnumbered = 2;
@@ -39,14 +39,14 @@ isContinued(const TestedPositions& observed,
     return false;
   const Eigen::Vector3f right = normal.unitOrthogonal(), up = normal.cross(right);
   const auto noise = kOnPlaneSigmas * static_cast<float>(observed.noise);
-  const float reach = kReach * static_cast<float>(observed.spacingAt(place));
+  const float reach = kFragmentReach * static_cast<float>(observed.spacingAt(place));
   std::size_t own = 0, others = 0;
   unsigned sides = 0;
   for (const Neighbour& n : tree.withinRadius(at, reach * reach)) {
     const auto other = static_cast<std::size_t>(n.index);
     const Eigen::Vector3f offset = observed.places[other] - at;
     if (other == place ||
-        std::abs(normal.dot(offset)) > noise + kBend * std::sqrt(n.distance_sq))
+        std::abs(normal.dot(offset)) > noise + kFragmentBend * std::sqrt(n.distance_sq))
       continue;
     own += object[other] == object[place] ? 1 : 0;
     if (object[other] >= 0)

@@ -14,6 +14,10 @@ namespace {
  * to a fifth. */
 constexpr std::size_t kPatch = 16;
 
+/** [spacings] Largest distance of the nearest places: of a full grid, 16 lie within 2.3, and with noise
+ * of a spacing within 3.5. Where rays are few, they may lie on other surfaces. */
+constexpr double kWidest = 4;
+
 /** Parameters of a plane. */
 constexpr std::size_t kPlane = 3;
 
@@ -31,7 +35,8 @@ PlacePatch
 patchOf(const TestedPositions& observed, const PointTree& tree, std::size_t place)
 {
   const auto nearest = tree.nearestK(observed.places[place], kPatch);
-  if (nearest.size() < kPatch)
+  const double widest = kWidest * observed.spacingAt(place);
+  if (nearest.size() < kPatch || nearest.back().distance_sq > widest * widest)
     return {};
   std::vector<Eigen::Vector3d> at;
   for (const Neighbour& n : nearest)

@@ -2,11 +2,8 @@
 #include "cluster_width.h"
 #include "passing_rays.h"
 
-#include <pcl6d/common/median.h>
-
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pcl6d::moving_objects {
 
@@ -14,30 +11,6 @@ namespace {
 /** Largest probability that the rays of all scans passed beside a cluster by chance: 5 %, as in the
  * other tests. */
 constexpr double kByChance = 0.05;
-
-/** Number of parts of a surface whose extents are measured: their median is accurate to a sixteenth
- * of the parts. */
-constexpr std::size_t kParts = 64;
-
-/** [spacings] Least radius of a part of a surface: a place with its neighbours on all sides. */
-constexpr double kPartSpacings = 1.5;
-
-/** [spacings] A narrower part is a single row of points, as in edge_lines.cpp. */
-constexpr double kRowSpacings = 1.1;
-
-/** Places of a surface, as an observer sees them: without the coordinate along its ray. */
-struct SeenPlaces {
-  Points across;                        ///< [m]
-  std::vector<Eigen::Matrix3d> spreads; ///< [m^2] of the surface about each place
-};
-
-/** \return the extents [m] that rays a spacing apart prove: n rows that met a surface are n - 1
- * spacings apart, and their even width is spacing * sqrt(n^2 - 1) */
-Eigen::Vector2d
-provenExtent(const Eigen::Vector2d& even_width, double spacing)
-{
-  return (even_width.array().square() + spacing * spacing).sqrt() - spacing;
-}
 } // namespace
 
 /** \return mean square [m^2] of the surface about a place. Range noise spreads the places along their
@@ -67,37 +40,16 @@ PassingRays::chanceToPassBeside(const std::vector<std::size_t>& places,
                                 const Observer& observer) const
 {
   const Eigen::Vector3d middle = middleOf(observed_, places);
-  const Eigen::Vector3d ray =
-      (middle - observer.originInObserved().cast<double>()).normalized();
-  const double gap = observer.gapAt(middle.cast<float>());
-  SeenPlaces seen;
+  const Eigen::Vector3d ray = middle - observer.originInObserved().cast<double>();
+  std::vector<Eigen::Vector3d> at;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const std::size_t place : places) {
-    const Eigen::Vector3d p = observed_.places[place].cast<double>() - middle;
-    seen.across.emplace_back((p - p.dot(ray) * ray).cast<float>());
-    seen.spreads.push_back(spreadOfPlace(place));
+    at.push_back(observed_.places[place].cast<double>());
+    spread += spreadOfPlace(place);
   }
-  const PointTree tree(seen.across, 1);
-  std::vector<double> chances;
-  const std::size_t step = 1 + (places.size() - 1) / kParts;
-  for (std::size_t k = 0; k < places.size(); k += step) {
-    const double spacing = observed_.spacingAt(places[k]);
-    const auto radius = static_cast<float>(
-        std::max(gap, kPartSpacings * std::max(spacing, votes_.observed().voxel)));
-    std::vector<Eigen::Vector3d> at;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Neighbour& n : tree.withinRadius(seen.across[k], radius * radius)) {
-      at.push_back(
-          observed_.places[places[static_cast<std::size_t>(n.index)]].cast<double>());
-      spread += seen.spreads[static_cast<std::size_t>(n.index)];
-    }
-    const Eigen::Matrix3d scatter =
-        scatterOf(at) + spread / static_cast<double>(at.size());
-    const Eigen::Vector3d own_ray = observed_.directionOf(places[k]).cast<double>();
-    const bool is_row = seenExtentOf(scatter, own_ray).x() < kRowSpacings * spacing;
-    const Eigen::Vector2d extent = provenExtent(seenExtentOf(scatter, ray), spacing);
-    chances.push_back(is_row ? 1 : 1 - (extent / gap).cwiseMin(1).prod());
-  }
-  return upperMedian(std::move(chances));
+  const Eigen::Vector2d extent = seenExtentOf(
+      scatterOf(at) + spread / static_cast<double>(places.size()), ray.normalized());
+  return 1 - (extent / observer.gapAt(middle.cast<float>())).cwiseMin(1).prod();
 }
 
 bool

@@ -32,10 +32,7 @@ public:
   bool
   isPassedBeside(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
 
-  /** \return the probability that no ray of an observer meets the surface at places. The rays are a
-   * gap apart, so the surface within a gap of a place decides: a bent row of points, like the pole and
-   * the arm of a lamp, is no wider than a straight row, and the leg of a table not as wide as the table.
-   * Half of the places, at least, have this probability or more. */
+  /** \return the probability that no ray of an observer meets the surface at places */
   double
   chanceToPassBeside(const std::vector<std::size_t>& places,
                      const Observer& observer) const;

@@ -14,8 +14,8 @@ namespace {
  * to a fifth. */
 constexpr std::size_t kPatch = 16;
 
-/** [spacings] Largest distance of the nearest places: of a full grid, 16 lie within 2.3, and with noise
- * of a spacing within 3.5. Where rays are few, they may lie on other surfaces. */
+/** [cells] Largest distance of the nearest places, seen from the scanner: of a full grid, 16 lie within
+ * 2.3. Where rays are few, the nearest places may lie on other surfaces. */
 constexpr double kWidest = 4;
 
 /** Parameters of a plane. */
@@ -35,12 +35,16 @@ PlacePatch
 patchOf(const TestedPositions& observed, const PointTree& tree, std::size_t place)
 {
   const auto nearest = tree.nearestK(observed.places[place], kPatch);
-  const double widest = kWidest * observed.spacingAt(place);
-  if (nearest.size() < kPatch || nearest.back().distance_sq > widest * widest)
+  if (nearest.size() < kPatch)
     return {};
+  const Eigen::Vector3f direction = observed.directionOf(place);
   std::vector<Eigen::Vector3d> at;
-  for (const Neighbour& n : nearest)
-    at.push_back(observed.places[static_cast<std::size_t>(n.index)].cast<double>());
+  for (const Neighbour& n : nearest) {
+    const auto beside = static_cast<std::size_t>(n.index);
+    if ((observed.directionOf(beside) - direction).norm() > kWidest * observed.cell)
+      return {};
+    at.push_back(observed.places[beside].cast<double>());
+  }
   const Eigen::Vector3d squares =
       symmetricEigenvalues<3>(scatterOf(at)).cwiseMax(0.0); // ascending
   const double deviation =

@@ -145,22 +145,6 @@ TEST(StaticThings, AFarWallWithMoreNoiseStands)
   EXPECT_LT(numDynamic(motionOf(scans)), 20u) << "97 with the noise of the whole scan";
 }
 
-// The range of a phase camera is ambiguous: far walls appear near, with the noise of far walls.
-TEST(StaticThings, ScatteredPointsWithoutASurfaceAreNoMover)
-{
-  Random random(7);
-  std::size_t scattered = 0;
-  const auto scans = changedScans(
-      {}, 8, [&](const TrueScan& scan, const Eigen::Vector3d& ray, double range) {
-        const bool is_far =
-            scan.T_world_scan.translation().x() == 1.5 && ray.x() > 0.97 && range > 2.5;
-        scattered += is_far ? 1 : 0;
-        return is_far ? 1.5 + 0.08 * random.normal() : range;
-      });
-  EXPECT_GT(scattered, 300u);
-  EXPECT_LT(100 * numDynamic(motionOf(scans)), scattered) << "nearly all, as a surface";
-}
-
 /** Rays on a grid onto a wall at 4 m, with a post before it, and rows of returns of a range at both
  * edges of the post. */
 struct PostTest {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cluster_width.h"
 #include "mixed_returns.h"
+#include "thin_clusters.h"
 
 namespace pcl6d::moving_objects {
 
@@ -11,6 +12,9 @@ constexpr double kCellsLookedAt = 3;
 
 /** [finest cells] Cells up to this width are of the finest level: the next has 1.5. */
 constexpr double kFinestCells = 1.25;
+
+/** [finest cells] Cells of the two finest levels: two of them are as wide as the beam and its halo. */
+constexpr double kFineCells = 1.75;
 } // namespace
 
 bool
@@ -27,7 +31,9 @@ areMixedReturns(const TestedPositions& observed,
   }
   return 2 * between > cluster.size() &&
          (observed.cell < kFinestCells * RayImageOptions().finest ||
-          arcWidthOf(directions) < kCellsLookedAt * observed.cell);
+          arcWidthOf(directions) < kCellsLookedAt * observed.cell ||
+          (observed.cell < kFineCells * RayImageOptions().finest &&
+           !hasSolidPart(observed, own, cluster)));
 }
 
 } // namespace pcl6d::moving_objects

@@ -2,13 +2,15 @@
 #include "edge_lines.h"
 #include "mixed_returns.h"
 #include "moving_clusters.h"
+#include "noisy_clusters.h"
+#include "passing_rays.h"
+#include "surface_fragments.h"
 #include "thin_clusters.h"
 
 #include <pcl6d/common/components.h>
 #include <pcl6d/common/parallel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace pcl6d::moving_objects {
@@ -19,10 +21,6 @@ namespace {
 constexpr double kNearCells = 3;
 /** [standard deviations] Largest difference of neighbours along the ray, by noise alone. */
 constexpr double kNearSigmas = 6;
-
-/** Largest probability that the rays of all scans passed beside a cluster by chance: 5 %, as in the
- * other tests. */
-constexpr double kByChance = 0.05;
 
 /** A cluster with hits is dynamic if at least this number of scans saw through most of its
  * places: the pose of a single scan may be wrong. */
@@ -129,7 +127,7 @@ MovingClusters::findClusters()
       continue;
     for (const std::size_t place : cluster)
       mover_[place] = static_cast<int>(movers_.size());
-    const Eigen::Vector3f middle = middleOf(cluster).cast<float>();
+    const Eigen::Vector3f middle = middleOf(observed_, cluster).cast<float>();
     float farthest = 0;
     for (const std::size_t place : cluster)
       farthest = std::max(farthest, (observed_.places[place] - middle).norm());
@@ -185,82 +183,10 @@ MovingClusters::wasGone(const std::vector<std::size_t>& cluster,
   const bool was_seen_there = 2 * hits > misses;
   if (clear < (was_seen_there ? kClearObservers : std::min(kClearObservers, most)))
     return false;
-  return excess >= kLeastMisses && !isPassedBeside(cluster, telling);
-}
-
-Eigen::Vector3d
-MovingClusters::middleOf(const std::vector<std::size_t>& cluster) const
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::size_t place : cluster)
-    sum += observed_.places[place].cast<double>();
-  return sum / static_cast<double>(cluster.size());
-}
-
-/** \return whether the rays of all scans may have passed beside the places that they missed, by
- * chance. Rays a gap g apart miss a surface of seen extents w and h with probability
- * 1 - min(1, w / g) min(1, h / g), independently for each scan. A surface seen at a flat angle, like
- * the edge of a platform, has almost no width. A cluster that another scan hit, like a pole or the
- * top of a table, is passed beside unless one of the scans must have hit it. */
-bool
-MovingClusters::isPassedBeside(const std::vector<std::size_t>& cluster,
-                               std::uint16_t telling) const
-{
-  double chance = 1;
-  bool is_hit = false;
-  for (std::size_t j = 0; j < observer_votes_.observers().size(); ++j) {
-    std::size_t hit = 0;
-    std::vector<std::size_t> missed;
-    for (const std::size_t place : cluster) {
-      hit += votes_[place].hits >> j & 1U;
-      if ((votes_[place].misses & telling & 1U << j) != 0)
-        missed.push_back(place);
-    }
-    is_hit = is_hit || 2 * hit > cluster.size();
-    if (!missed.empty())
-      chance *= chanceToPassBeside(missed, observer_votes_.observers()[j]);
-  }
-  return chance > (is_hit ? 0 : kByChance);
-}
-
-/** \return mean square [m^2] about its middle of the surface that was measured at places. Range noise
- * spreads the places along their rays, which is no extent of the surface. A place of a reduced scan
- * stands for the points of its voxel, which fill it but for the gap to the next ray. */
-Eigen::Matrix3d
-MovingClusters::scatterOfSurface(const std::vector<std::size_t>& places) const
-{
-  const SeenScan& observed = observer_votes_.observed();
-  std::vector<Eigen::Vector3d> at;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::size_t place : places) {
-    const Eigen::Vector3f& p = observed_.places[place];
-    const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
-    at.push_back(p.cast<double>());
-    scatter -= observed_.noise * observed_.noise * ray * ray.transpose();
-    const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
-    const auto next = tree_.nearestK(p, 2);
-    if (normal.isZero() || next.size() < 2)
-      continue;
-    const double filled =
-        observed.voxel - observed_.cell * (p - observed_.origin).norm();
-    const double edge = std::min(std::max(0.0, filled),
-                                 static_cast<double>(std::sqrt(next[1].distance_sq)));
-    scatter +=
-        edge * edge / 12 * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
-  }
-  return scatterOf(at) + scatter / static_cast<double>(places.size());
-}
-
-/** \return the probability that no ray of an observer meets the surface at places */
-double
-MovingClusters::chanceToPassBeside(const std::vector<std::size_t>& places,
-                                   const Observer& observer) const
-{
-  const Eigen::Vector3d middle = middleOf(places);
-  const Eigen::Vector3d ray = middle - observer.originInObserved().cast<double>();
-  const Eigen::Vector2d extent =
-      seenExtentOf(scatterOfSurface(places), ray.normalized());
-  return 1 - (extent / observer.gapAt(middle.cast<float>())).cwiseMin(1).prod();
+  return excess >= kLeastMisses &&
+         !PassingRays(observed_, observer_votes_, tree_)
+              .isPassedBeside(cluster, telling) &&
+         !isNoise(observed_, observer_votes_, tree_, cluster, telling);
 }
 
 /** \return the scans that observed a dynamic object while at rest: scans that hit most of its
@@ -358,15 +284,20 @@ MovingClusters::grow()
   }
 }
 
-/** Removes each object that is a single line of cells, seen from the scanner. */
+/** Removes each object that is a single line of cells, seen from the scanner, or a piece of a larger
+ * surface. */
 void
-MovingClusters::dropLines()
+MovingClusters::dropParts()
 {
   const std::vector<bool> is_line =
       areEdgeLines(observed_, mover_, movers_.size(), num_threads_);
-  for (int& mover : mover_)
-    if (mover != kNobody && is_line[static_cast<std::size_t>(mover)])
+  const std::vector<bool> is_fragment = areFragments(
+      observed_, observer_votes_.observed(), mover_, movers_.size(), tree_);
+  for (int& mover : mover_) {
+    const auto of = static_cast<std::size_t>(mover);
+    if (mover != kNobody && (is_line[of] || is_fragment[of]))
       mover = kNobody;
+  }
 }
 
 std::vector<PointMotion>
@@ -376,7 +307,7 @@ MovingClusters::decide()
     tree_ = PointTree(observed_.places, num_threads_);
     findClusters();
     grow();
-    dropLines();
+    dropParts();
   }
   std::vector<PointMotion> motion(votes_.size(), PointMotion::kUnknown);
   for (std::size_t place = 0; place < votes_.size(); ++place)

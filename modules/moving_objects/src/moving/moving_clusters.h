@@ -45,15 +45,6 @@ private:
   moves(const std::vector<std::size_t>& cluster) const;
   bool
   wasGone(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
-  bool
-  isPassedBeside(const std::vector<std::size_t>& cluster, std::uint16_t telling) const;
-  Eigen::Matrix3d
-  scatterOfSurface(const std::vector<std::size_t>& places) const;
-  double
-  chanceToPassBeside(const std::vector<std::size_t>& places,
-                     const Observer& observer) const;
-  Eigen::Vector3d
-  middleOf(const std::vector<std::size_t>& cluster) const;
   std::uint16_t
   stayedFor(const std::vector<std::size_t>& cluster) const;
   void
@@ -63,7 +54,7 @@ private:
   int
   ownerOf(std::size_t place, bool is_near) const;
   void
-  dropLines();
+  dropParts();
 
   const TestedPositions observed_;
   const ObserverVotes& observer_votes_;

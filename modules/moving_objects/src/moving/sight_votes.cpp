@@ -61,15 +61,16 @@ Observer::sigmaOf(const Eigen::Vector3f& place, const Eigen::Vector3f& seen) con
 }
 
 std::vector<SightOfPlace>
-Observer::look(const Points& places) const
+Observer::look(const Points& places, const std::vector<float>& deviations) const
 {
   Points seen;
   std::vector<float> sigmas;
   seen.reserve(places.size());
   sigmas.reserve(places.size());
-  for (const Eigen::Vector3f& place : places) {
-    seen.emplace_back(T_observer_observed_ * place);
-    sigmas.push_back(sigmaOf(place, seen.back()));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    seen.emplace_back(T_observer_observed_ * places[k]);
+    const float sigma = sigmaOf(places[k], seen.back());
+    sigmas.push_back(deviations.empty() ? sigma : std::hypot(sigma, deviations[k]));
   }
   return observer_->rays->look(seen, sigmas);
 }

@@ -41,9 +41,10 @@ public:
     return later_;
   }
 
-  /** \return the ray test of places in the frame of the observed scan */
+  /** \return the ray test of places in the frame of the observed scan
+   * \param[in] deviations [m] of each place, beyond the noise of its scan; empty: none */
   std::vector<SightOfPlace>
-  look(const Points& places) const;
+  look(const Points& places, const std::vector<float>& deviations = {}) const;
 
   /** \brief Whether a ray that passed a place ended too far behind to have met the surface of
    * the place within its cell at a grazing angle.

@@ -4,6 +4,7 @@
 #include <pcl6d/common/points.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace pcl6d::moving_objects {
 
@@ -20,6 +21,23 @@ struct TestedPositions {
   {
     return (places[place] - origin).normalized();
   }
+
+  /** \return [m] distance of neighbouring rays at a place */
+  double
+  spacingAt(std::size_t place) const
+  {
+    return cell * (places[place] - origin).norm();
+  }
 };
+
+/** \return [m] the mean of some places */
+inline Eigen::Vector3d
+middleOf(const TestedPositions& observed, const std::vector<std::size_t>& some)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::size_t place : some)
+    sum += observed.places[place].cast<double>();
+  return sum / static_cast<double>(some.size());
+}
 
 } // namespace pcl6d::moving_objects

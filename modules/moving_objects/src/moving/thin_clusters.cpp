@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "thin_clusters.h"
 
+#include <pcl6d/search/point_tree.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,10 @@ namespace pcl6d::moving_objects {
 namespace {
 /** Least number of places inside of a surface: a patch of sightEvidence(). */
 constexpr std::size_t kLeastSolid = 4;
+
+/** One place in this number, at least, is inside of a surface. A pane that returns a share f of the rays
+ * surrounds a place with f^8 of chance: 1 / 8 is f = 0.77. */
+constexpr std::size_t kSolidShare = 8;
 
 /** [standard deviations] Ranges within this distance are equal, as in RayImage. */
 constexpr double kSameRangeSigmas = 3;
@@ -34,15 +40,6 @@ isInsideSurface(const TestedPositions& observed, const RayImage& own, std::size_
       static_cast<float>(kOtherSurface * toleranceAt(observed, ray.norm()));
   return own.look(observed.places[place] + behind * ray.normalized(), 0).sight ==
          Sight::kBehind;
-}
-
-Eigen::Vector3d
-middleOfPlaces(const TestedPositions& observed, const std::vector<std::size_t>& cluster)
-{
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::size_t place : cluster)
-    sum += observed.places[place].cast<double>();
-  return sum / static_cast<double>(cluster.size());
 }
 
 /** \return twice the area of a triangle; positive: c is to the left of the way from a to b */
@@ -97,6 +94,20 @@ hitsBy(const ObserverVotes& votes,
   }
   return hit > missed ? hit : 0;
 }
+/** \return the mean cosine of the angle between the normals at places and the rays from an origin */
+double
+steepnessFrom(const Eigen::Vector3f& origin,
+              const TestedPositions& observed,
+              const ObserverVotes& votes,
+              const std::vector<std::size_t>& cluster)
+{
+  double sum = 0;
+  for (const std::size_t place : cluster) {
+    const Eigen::Vector3f& p = observed.places[place];
+    sum += std::abs(normalOf(votes.observed(), p).dot((p - origin).normalized()));
+  }
+  return sum / static_cast<double>(cluster.size());
+}
 } // namespace
 
 bool
@@ -107,39 +118,42 @@ hasSolidPart(const TestedPositions& observed,
   std::size_t solid = 0;
   for (const std::size_t place : cluster) {
     solid += isInsideSurface(observed, own, place) ? 1 : 0;
-    if (solid == kLeastSolid)
-      return true;
   }
-  return false;
+  return solid >= std::max(kLeastSolid, cluster.size() / kSolidShare);
 }
 
 bool
 isPorous(const TestedPositions& observed, const std::vector<std::size_t>& cluster)
 {
   const Eigen::Vector3d ahead =
-      (middleOfPlaces(observed, cluster) - observed.origin.cast<double>()).normalized();
+      (middleOf(observed, cluster) - observed.origin.cast<double>()).normalized();
   const Eigen::Vector3d x = ahead.unitOrthogonal(), y = ahead.cross(x);
   const auto seenAt = [&](const Eigen::Vector3d& way) {
     return Planar(x.dot(way) / ahead.dot(way), y.dot(way) / ahead.dot(way));
   };
   std::vector<Planar> at;
-  double range = 0, narrowest = 1; // cosine of the cone around the cluster
+  Points directions;
+  double narrowest = 1; // cosine of the cone around the cluster
   for (const std::size_t place : cluster) {
-    const Eigen::Vector3d way = observed.directionOf(place).cast<double>();
+    directions.push_back(observed.directionOf(place));
+    const Eigen::Vector3d way = directions.back().cast<double>();
     at.push_back(seenAt(way));
     narrowest = std::min(narrowest, ahead.dot(way));
-    range = std::max<double>(range, (observed.places[place] - observed.origin).norm());
   }
   if (narrowest <= 0) // around the scanner
     return false;
+  const PointTree tree(directions, 1);
   const std::vector<Planar> hull = convexHull(std::move(at));
-  const double behind = range + toleranceAt(observed, range);
   std::size_t passed = 0;
   for (const Eigen::Vector3f& place : observed.places) {
-    const Eigen::Vector3d ray = (place - observed.origin).cast<double>();
-    if (ahead.dot(ray) >= narrowest * behind && ray.norm() > behind &&
-        ahead.dot(ray) >= narrowest * ray.norm())
-      passed += isWithin(hull, seenAt(ray)) ? 1 : 0;
+    const Eigen::Vector3f ray = place - observed.origin;
+    const double range = ray.norm(), along = ahead.dot(ray.cast<double>());
+    if (along < narrowest * range || !isWithin(hull, seenAt(ray.cast<double>())))
+      continue;
+    const auto next =
+        static_cast<std::size_t>(tree.nearestK(ray / ray.norm(), 1)[0].index);
+    const double met = (observed.places[cluster[next]] - observed.origin).norm();
+    passed += range > met + kOtherSurface * toleranceAt(observed, met) ? 1 : 0;
   }
   return passed >= cluster.size();
 }
@@ -158,15 +172,26 @@ observersAsFine(const TestedPositions& observed,
                 const ObserverVotes& votes,
                 const std::vector<std::size_t>& cluster)
 {
-  const Eigen::Vector3f middle = middleOfPlaces(observed, cluster).cast<float>();
+  const Eigen::Vector3f middle = middleOf(observed, cluster).cast<float>();
   const double cell = std::max(votes.observed().rays->cellAt(middle), observed.cell);
   double gap = cell * (middle - observed.origin).norm();
+  double steep = steepnessFrom(observed.origin, observed, votes, cluster);
+  const auto steepness = [&](std::size_t j) {
+    return steepnessFrom(
+        votes.observers()[j].originInObserved(), observed, votes, cluster);
+  };
   for (std::size_t j = 0; j < votes.observers().size(); ++j)
-    if (hitsBy(votes, j, cluster) > 0)
+    if (2 * hitsBy(votes, j, cluster) > cluster.size()) {
       gap = std::max(gap, votes.observers()[j].gapAt(middle));
+      steep = std::min(steep, steepness(j));
+    }
+  const bool is_porous = isPorous(observed, cluster);
   unsigned as_fine = 0;
   for (std::size_t j = 0; j < votes.observers().size(); ++j)
-    as_fine |= votes.observers()[j].gapAt(middle) <= gap ? 1U << j : 0U;
+    as_fine |= votes.observers()[j].gapAt(middle) <= gap &&
+                       (!is_porous || steepness(j) >= steep)
+                   ? 1U << j
+                   : 0U;
   return static_cast<std::uint16_t>(as_fine);
 }
 

@@ -20,14 +20,16 @@ constexpr int kHitInMisses = 2;
 constexpr int kLeastMisses = 8;
 
 /** \return whether enough places of a cluster are inside of a surface: of the rays of the own scan in
- * the cells around such a place, none ended behind the surface */
+ * the cells around such a place, none ended behind the surface. At least four places, and one in
+ * eight: of many places on glass, some are surrounded by chance */
 bool
 hasSolidPart(const TestedPositions& observed,
              const RayImage& own,
              const std::vector<std::size_t>& cluster);
 
 /** \return whether rays of the own scan passed between the places of a cluster, at least as many as
- * met it: boards, branches */
+ * met it: boards, branches, glass. A ray passed if it ended farther behind the nearest place of the
+ * cluster than one surface explains */
 bool
 isPorous(const TestedPositions& observed, const std::vector<std::size_t>& cluster);
 
@@ -37,7 +39,9 @@ bool
 isHitByOthers(const ObserverVotes& votes, const std::vector<std::size_t>& cluster);
 
 /** \return the scans that cannot pass beside a thin thing, because their rays are at most as far
- * apart there as those of a scan that hit it, the own scan included; a bit for each observer */
+ * apart there as those of a scan that hit most of it, the own scan included; a bit for each observer.
+ * The rays of a porous thing must also meet it at least as steeply: glass returns light to a scanner
+ * right ahead, and lets flat rays pass or mirrors them away */
 std::uint16_t
 observersAsFine(const TestedPositions& observed,
                 const ObserverVotes& votes,

@@ -62,6 +62,26 @@ TEST(PoseMistake, IsNoneOfPosesThatAgree)
   EXPECT_EQ(likelyPoseMistake(scansOf().all(), straightWay()), "");
 }
 
+// Views of a floor agree at the right distance above the floor, wherever they lie on it: given poses
+// that are wrong by their height agree nowhere, and every change of axes that mends the height would.
+TEST(PoseMistake, IsNoneWhereSurfacesLeaveMotionsOpen)
+{
+  Random random(5);
+  VerifiedScans scans;
+  Poses poses;
+  for (int i = 0; i < 5; ++i) {
+    Points floor;
+    for (int k = 0; k < 6000; ++k)
+      floor.push_back(Eigen::Vector3d(random.uniform(-3, 3),
+                                      random.uniform(-3, 3),
+                                      -1 + 0.005 * random.normal())
+                          .cast<float>());
+    scans.add(floor);
+    poses.push_back(pcl6d::poseFromEuler({0, 0, 0.8 * i}, {}));
+  }
+  EXPECT_EQ(likelyPoseMistake(scans.all(), poses), "");
+}
+
 TEST(PoseMistake, NamesTheUnit)
 {
   const VerifiedScans scans = scansOf();

@@ -22,8 +22,7 @@ PassingRays::spreadOfPlace(std::size_t place) const
   const SeenScan& observed = votes_.observed();
   const Eigen::Vector3f& p = observed_.places[place];
   const Eigen::Vector3d ray = observed_.directionOf(place).cast<double>();
-  const Eigen::Matrix3d noise =
-      -observed_.noise * observed_.noise * ray * ray.transpose();
+  Eigen::Matrix3d noise = -observed_.noise * observed_.noise * ray * ray.transpose();
   const Eigen::Vector3d normal = normalOf(observed, p).cast<double>();
   const auto next = tree_.nearestK(p, 2);
   if (normal.isZero() || next.size() < 2)

@@ -184,7 +184,7 @@ RecoveryStage::join(const std::vector<Piece>& pieces,
     if (pieces[p].size() > 1)
       for (const std::size_t i : pieces[p])
         join.known[i] = {p + 1, own_[i].T_world_scan};
-  const JoinedScans joined = joinScans(list, join);
+  JoinedScans joined = joinScans(list, join);
   recovery_.budget().spendPairs(joined.pairs_paid, joined.pairs_left_out);
   return joined;
 }

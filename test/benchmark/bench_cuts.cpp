@@ -7,9 +7,9 @@
 #include "cut_fit.h"
 #include "cut_runs.h"
 
+#include <exception>
 #include <iostream>
 #include <iterator>
-#include <limits>
 
 namespace pcl6d::bench {
 
@@ -96,6 +96,9 @@ run(const std::vector<std::string>& arguments)
 
 int
 main(int argc, char** argv)
-{
+try {
   return pcl6d::bench::run({argv + 1, argv + argc});
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -183,6 +184,9 @@ run(const std::vector<std::string>& arguments)
 
 int
 main(int argc, char** argv)
-{
+try {
   return pcl6d::bench::run({argv + 1, argv + argc});
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }

@@ -77,7 +77,7 @@ TEST(RegisterPieces, ScansBehindABreakAreRegisteredWithEachOther)
   EXPECT_FALSE(scans[kBefore].rejections.empty());
   for (std::size_t i = kBefore + 1; i < kBefore + kBehind; ++i) {
     EXPECT_EQ(scans[i].state, ScanState::kMatched) << i;
-    EXPECT_EQ(scans[i].recovered, RecoveredBy::kTogether);
+    EXPECT_EQ(scans[i].recovered, RecoveredBy::kBeside);
     EXPECT_TRUE(scans[i].rejections.empty());
     EXPECT_GT(scans[i].overlap, 0.5);
     EXPECT_LT(stepError(i, broken(), run), 0.025) << "the odometry's is 0.05";
@@ -117,6 +117,43 @@ TEST(RegisterPieces, AFurtherCallChangesNothing)
   ASSERT_TRUE(slam.optimize());
   pcl6d::test::expectSameBits(once, slam.result());
   EXPECT_EQ(once.floating, slam.result().floating);
+}
+
+TEST(RegisterPieces, ScansAddedLaterAreNotMatchedWithThePiece)
+{
+  DriftingRun run = brokenRun();
+  pcl6d::Slam6D slam;
+  const std::size_t all = run.scans.size();
+  for (std::size_t i = 0; i + 1 < all; ++i)
+    slam.addScan(run.scans[i], run.odometry[i]);
+  ASSERT_TRUE(slam.optimize());
+  EXPECT_EQ(slam.result().floating.size(), kBehind - 2);
+  slam.addScan(run.scans[all - 1], run.odometry[all - 1]);
+  ASSERT_TRUE(slam.optimize());
+  const std::vector<std::size_t> expected = {kBefore + 1, kBefore + 2, kBefore + 3};
+  EXPECT_EQ(slam.result().floating, expected);
+  for (std::size_t i = kBefore; i < all; ++i) {
+    EXPECT_FALSE(slam.result().verification->scans[i].tied) << i;
+    EXPECT_TRUE(i == kBefore ||
+                slam.result().scans[i].recovered == RecoveredBy::kBeside)
+        << i;
+  }
+}
+
+TEST(RegisterPieces, ThePieceSeesNothingMove)
+{
+  // The odometry leads the piece into the room of the map, whose walls its rays pass through.
+  DriftingRun run = brokenRun();
+  const Eigen::Isometry3d back = run.odometry[kBefore - 1] *
+                                 poseFromEuler({0.3, 0, 0}, {}) *
+                                 run.odometry[kBefore].inverse();
+  for (std::size_t i = kBefore; i < run.odometry.size(); ++i)
+    run.odometry[i] = back * run.odometry[i];
+  const Slam6DResult result = registered(run);
+  EXPECT_FALSE(result.trusted());
+  EXPECT_EQ(result.count(ScanState::kPredicted), 1u);
+  ASSERT_TRUE(result.moving);
+  EXPECT_EQ(result.moving->moving, 0u);
 }
 
 TEST(RegisterPieces, WithoutAVerdictThePieceFollowsTheOdometry)

@@ -109,7 +109,8 @@ takeFrom(const RunResult& run, Listing& listing)
     for (std::size_t i = 0; i < count; ++i)
       if (static_cast<std::size_t>(scan.index) == listing.indices[i]) {
         listing.unsure[i] = isWithoutPrior(scan.start);
-        listing.unregistered[i] = scan.state == ScanState::kPredicted;
+        listing.unregistered[i] = scan.state == ScanState::kPredicted ||
+                                  scan.recovered == RecoveredBy::kBeside;
       }
 }
 

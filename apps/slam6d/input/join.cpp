@@ -53,6 +53,7 @@ freeNames(const std::vector<std::string>& names,
   std::string prefix;
   for (int k = 1;; ++k) {
     std::vector<std::string> free;
+    free.reserve(names.size());
     for (const auto& name : names)
       free.push_back(prefix + name);
     if (std::none_of(free.begin(), free.end(), [&](const std::string& name) {
@@ -116,9 +117,13 @@ EarlierRuns::resultOf(std::size_t i) const
 {
   const RunResult& run = runs[scans[i].run].summary();
   ScanResult scan = run.scans.at(scans[i].place);
-  const bool is_of_piece = scan.recovered == RecoveredBy::kTogether;
-  if ((areJoined() || is_of_piece) && isFloating(scan, run))
+  if (areJoined() && isFloating(scan, run))
     scan.state = ScanState::kPredicted;
+  if (scan.recovered == RecoveredBy::kBeside) {
+    scan.state = ScanState::kPredicted;
+    scan.recovered = RecoveredBy::kNone;
+    scan.rejections = {RejectReason::kNoConsistentLink};
+  }
   return scan;
 }
 

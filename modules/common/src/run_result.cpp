@@ -22,7 +22,8 @@ constexpr Named<RecoveredBy> kRecoveries[] = {{RecoveredBy::kNone, ""},
                                               {RecoveredBy::kMotion, "motion"},
                                               {RecoveredBy::kSearch, "search"},
                                               {RecoveredBy::kEverywhere, "everywhere"},
-                                              {RecoveredBy::kTogether, "together"}};
+                                              {RecoveredBy::kTogether, "together"},
+                                              {RecoveredBy::kBeside, "beside"}};
 constexpr Named<StageKind> kStageKinds[] = {{StageKind::kMatching, "matching"},
                                             {StageKind::kLoopClosing, "loop closing"},
                                             {StageKind::kRelaxation, "relaxation"},

@@ -16,13 +16,6 @@
 namespace pcl6d {
 
 namespace {
-bool
-isFloating(const ScanResult& scan, const RunResult& run)
-{
-  return std::find(run.floating.begin(), run.floating.end(), scan.file) !=
-         run.floating.end();
-}
-
 /** \return ": a.pcd, b.pcd and 3 more" */
 std::string
 listed(const std::vector<std::string>& files)
@@ -69,7 +62,7 @@ describeLoose(const RunResult& run, std::ostream& text)
             "them"
          << listed(run.floating);
   else if (std::any_of(run.scans.begin(), run.scans.end(), [&](const auto& scan) {
-             return scan.recovered == RecoveredBy::kTogether && isFloating(scan, run);
+             return scan.recovered == RecoveredBy::kBeside;
            }))
     text << "\nNOT TO BE TRUSTED: " << count
          << " beside the map: matched with each other only, placed by the given poses"
@@ -104,7 +97,7 @@ describeUnconverged(const RunResult& run, std::ostream& text)
          << listed(held);
 }
 
-/** Scans that were lost and recovered, and how. Scans of pieces beside the map were not found again. */
+/** Scans that were lost and recovered, and how. */
 void
 describeRecovered(const RunResult& run, std::ostream& text)
 {
@@ -116,7 +109,7 @@ describeRecovered(const RunResult& run, std::ostream& text)
   for (const auto& [way, words] : ways) {
     std::vector<std::string> files;
     for (const auto& scan : run.scans)
-      if (scan.recovered == way && !isFloating(scan, run))
+      if (scan.recovered == way)
         files.push_back(scan.file);
     if (!files.empty())
       text << "\nlost where the odometry led, and found again " << words

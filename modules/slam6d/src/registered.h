@@ -26,16 +26,12 @@ areRegistered(const Slam6DResult& result)
   return registered;
 }
 
-/** \return for each scan whether its pose is one of the map: registered, and not only with the scans
- * of a piece beside the map, whose place is that of the odometry */
-inline std::vector<bool>
-areInMap(const Slam6DResult& result)
+/** \return whether a scan was registered with the scans of the map, not only with those of a piece
+ * beside the map */
+inline bool
+isInMap(const ScanResult& scan)
 {
-  std::vector<bool> in_map = areRegistered(result);
-  for (const std::size_t i : result.floating)
-    if (result.scans[i].recovered == RecoveredBy::kTogether)
-      in_map[i] = false;
-  return in_map;
+  return isRegistered(scan) && scan.recovered != RecoveredBy::kBeside;
 }
 
 } // namespace pcl6d::slam6d

@@ -49,11 +49,11 @@ isFoundBySearch(RecoveredBy by)
 /** \return whether a scan was registered or lost since the verdict, and this changes the verdict: lost
  * scans do not count as connected */
 bool
-isOutdated(const MapVerification& map, const std::vector<bool>& in_map)
+isOutdated(const MapVerification& map, const std::vector<ScanResult>& scans)
 {
   for (std::size_t i = 0; i < map.scans.size(); ++i)
-    if (in_map[i] ? map.scans[i].doubt.reason == RejectReason::kScanUnregistered
-                  : map.scans[i].tied)
+    if (isInMap(scans[i]) ? map.scans[i].doubt.reason == RejectReason::kScanUnregistered
+                          : map.scans[i].tied)
       return true;
   return false;
 }
@@ -109,9 +109,9 @@ RunVerification::verify(const std::vector<std::string>& names,
     return a.T_world_scan.matrix() == b.T_world_scan.matrix() &&
            a.is_unsure == b.is_unsure;
   };
-  if (!result.verification || isOutdated(*result.verification, areInMap(result)) ||
+  if (!result.verification || isOutdated(*result.verification, result.scans) ||
       !std::equal(map.begin(), map.end(), verified_.begin(), verified_.end(), isSame)) {
-    result.verification = verdictOn(map, names, is_kept, result);
+    result.verification = verdictOn(map, names, is_kept, result.scans);
     verified_ = std::move(map);
   }
   takeCovariances(*result.verification, result.scans);
@@ -135,7 +135,7 @@ MapVerification
 RunVerification::verdictOn(const std::vector<Verified>& scans,
                            const std::vector<std::string>& names,
                            const MapIsKept& is_kept,
-                           const Slam6DResult& result)
+                           const std::vector<ScanResult>& results)
 {
   std::vector<Eigen::Isometry3d> poses;
   MapVerifierOptions options;
@@ -148,8 +148,8 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
     poses.push_back(scan.T_world_scan);
     options.unsure.push_back(scan.is_unsure);
   }
-  options.unregistered = areInMap(result);
-  options.unregistered.flip();
+  for (const ScanResult& result : results)
+    options.unregistered.push_back(!isInMap(result));
   std::vector<std::string> files; // file names without directories, for the text of the
                                   // verdict
   files.reserve(names.size());
@@ -157,7 +157,7 @@ RunVerification::verdictOn(const std::vector<Verified>& scans,
     files.push_back(std::filesystem::path(name).filename().string());
   MapVerification map = MapVerifier(scans_, files, options).verify(poses);
   factor_ = boundPoses(poses, map, num_threads_, frames_, least_factor_);
-  explainDoubts(result.scans, map);
+  explainDoubts(results, map);
   return map;
 }
 

@@ -82,8 +82,8 @@ public:
               const MapIsKept& is_kept,
               Slam6DResult& result);
 
-  /** Bounds of further verdicts are at least as wide as the deviations of the links of the last one
-   * ask for: for a map that is adjusted to its links. Ends with forgetVariance() */
+  /** The variance factor of the last verdict becomes the least factor of further verdicts, until
+   * forgetVariance(): links agree with a map that was adjusted to them */
   void
   keepVariance()
   {
@@ -94,6 +94,13 @@ public:
   forgetVariance()
   {
     least_factor_ = 1;
+  }
+
+  /** \return the least variance factor, for linksOfMap() */
+  double
+  leastFactor() const
+  {
+    return least_factor_;
   }
 
 private:
@@ -111,7 +118,7 @@ private:
   verdictOn(const std::vector<Verified>& map,
             const std::vector<std::string>& names,
             const MapIsKept& is_kept,
-            const Slam6DResult& result);
+            const std::vector<ScanResult>& scans);
 
   void
   explainDoubts(const std::vector<ScanResult>& scans, MapVerification& map);

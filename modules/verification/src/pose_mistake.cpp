@@ -133,6 +133,7 @@ farthestSteps(const std::vector<Eigen::Isometry3d>& poses)
   std::sort(steps.begin(), steps.end());
   steps.resize(std::min(steps.size(), kAskedPairs));
   std::vector<std::size_t> scans;
+  scans.reserve(steps.size());
   for (const auto& [distance, i] : steps)
     scans.push_back(i);
   return scans;

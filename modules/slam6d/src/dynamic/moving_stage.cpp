@@ -34,7 +34,7 @@ constexpr double kNoticedSigmas = 3;
 bool
 isJudge(const VerifiedScan& scan, const ScanResult& result)
 {
-  return isRegistered(result) && !scan.abstains();
+  return isInMap(result) && !scan.abstains();
 }
 
 /** \return [m^2] mean square distance by which a change of pose moves points */

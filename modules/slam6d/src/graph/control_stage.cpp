@@ -45,12 +45,13 @@ ControlStage::ControlStage(const ControlOptions& options, unsigned int num_threa
 }
 
 bool
-ControlStage::adjust(Slam6DResult& result)
+ControlStage::adjust(double least_factor, Slam6DResult& result)
 {
   const auto start = std::chrono::steady_clock::now();
   const Poses before = posesOf(result);
   adjusted_ = adjustToControl(
-      linksOfMap(before, *result.verification, options_.num_threads), options_);
+      linksOfMap(before, *result.verification, options_.num_threads, least_factor),
+      options_);
   result.control = adjusted_.result;
   if (!adjusted_.result.adjusted)
     return false;

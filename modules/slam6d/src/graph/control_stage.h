@@ -14,10 +14,11 @@ public:
   /** \brief Fills Slam6DResult::control. \param[in,out] result with its verification, whose links
    * are the measured relative poses. If the points fit, all poses except the initial ones change
    * to the frame of the control points, and a stage is added.
+   * \param[in] least_factor least variance factor of the links, see linksOfMap()
    * \return whether a link moved by more than its standard deviation, which requires another
    * verification of the map */
   bool
-  adjust(Slam6DResult& result);
+  adjust(double least_factor, Slam6DResult& result);
 
   /** \brief Gives the scans their covariances in the frame of the control points. */
   void

@@ -118,6 +118,7 @@ measuredLinks(const std::vector<ScanLink>& odometry,
               double voxel)
 {
   std::vector<PoseLink> measured;
+  measured.reserve(odometry.size());
   for (const ScanLink& link : odometry)
     measured.push_back(
         stepLink(link.from,

@@ -89,10 +89,8 @@ measuredMapOf(const std::vector<Eigen::Isometry3d>& T_world_scan,
     return measured;
   Components joined(T_world_scan.size());
   for (const LinkCheck& link : map.links)
-    if (measures(link, map)) {
+    if (measures(link, map))
       joined.join(link.from, link.to);
-      measured.are_refined = measured.are_refined || link.refined;
-    }
   std::vector<std::size_t> vertex(T_world_scan.size());
   for (std::size_t i = 0; i < T_world_scan.size(); ++i)
     if (joined.firstOf(i) == joined.firstOf(0)) {
@@ -102,17 +100,21 @@ measuredMapOf(const std::vector<Eigen::Isometry3d>& T_world_scan,
     }
   for (const LinkCheck& link : map.links)
     if (measures(link, map) && joined.firstOf(link.from) == joined.firstOf(0)) {
-      PoseLink one;
-      one.from = vertex[link.from];
-      one.to = vertex[link.to];
-      one.T_from_to = T_world_scan[link.from].inverse() * T_world_scan[link.to] *
-                      motionFromTwist(link.pull);
-      const Matrix6 information = inverted<6>(
-          Matrix6(ownFactorOf(link, measured.are_refined) * link.covariance));
-      one.information = 0.5 * (information + information.transpose());
-      measured.graph.links.push_back(one);
       measured.links.push_back(&link);
+      measured.are_refined = measured.are_refined || link.refined;
     }
+  for (const LinkCheck* link_of_map : measured.links) {
+    const LinkCheck& link = *link_of_map;
+    PoseLink one;
+    one.from = vertex[link.from];
+    one.to = vertex[link.to];
+    one.T_from_to = T_world_scan[link.from].inverse() * T_world_scan[link.to] *
+                    motionFromTwist(link.pull);
+    const Matrix6 information =
+        inverted<6>(Matrix6(ownFactorOf(link, measured.are_refined) * link.covariance));
+    one.information = 0.5 * (information + information.transpose());
+    measured.graph.links.push_back(one);
+  }
   return measured;
 }
 

@@ -55,9 +55,7 @@ ofFrames(const Eigen::Isometry3d& T_scan_first,
   moved << R, skew(T_scan_first.translation()) * R, Eigen::Matrix3d::Zero(), R;
   return moved * first * moved.transpose() + scan;
 }
-} // namespace
 
-namespace {
 /** Forgets the bounds of all scans; that of the first one is zero.
  * \return whether scans are connected to the first one */
 bool
@@ -126,7 +124,8 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
 PoseGraph
 linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
            const MapVerification& map,
-           unsigned int num_threads)
+           unsigned int num_threads,
+           double least_factor)
 {
   require(T_world_scan.size() == map.scans.size(),
           "poses",
@@ -144,8 +143,8 @@ linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
   all.links = measured.graph.links;
   PoseGraphOptimizer optimizer(measured.graph, options);
   const PoseGraphResult& best = optimizer.optimize();
-  const double excess =
-      slam6d::excessOf(best, measured, slam6d::varianceFactorOf(measured));
+  const double excess = slam6d::excessOf(
+      best, measured, std::max(least_factor, slam6d::varianceFactorOf(measured)));
   double farthest = 1;
   try {
     const std::vector<Matrix6> covariances = optimizer.marginalCovariances();

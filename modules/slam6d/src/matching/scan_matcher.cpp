@@ -56,6 +56,20 @@ failureOf(const IcpResult& found)
   return {};
 }
 
+/** Tests the place of a match. A motion that surfaces leave open needs no confirmation, as no link can
+ * confirm it; but a motion that only noise fixes may be open because the place is wrong, so such a
+ * match is tested as if the motion was fixed. */
+Rejection
+verified(const ScanMatcher::Verify& verify, bool is_fixed_by_noise, ScanResult& scan)
+{
+  const Status status = scan.status;
+  if (is_fixed_by_noise)
+    scan.status = Status::kOk;
+  Rejection rejection = verify(scan);
+  scan.status = status;
+  return rejection;
+}
+
 /** \return [m] rms displacement of points between two poses */
 double
 motionOf(const Points& points,
@@ -239,11 +253,8 @@ ScanMatcher::matchFrom(const StartingPose& start,
   const Eigen::Isometry3d kept = scan.T_world_scan;
   scan.T_world_scan = found.T_target_source;
   scan.T_world_scan.translation() += origin;
-  if (is_fixed_by_noise) // at a wrong place, too: the place is tested like any other
-    scan.status = Status::kOk;
   if (!rejection && verify)
-    rejection = verify(scan);
-  scan.status = found.status;
+    rejection = verified(verify, is_fixed_by_noise, scan);
   scan.rejections.clear();
   if (rejection) {
     scan.rejections.push_back(std::move(rejection));

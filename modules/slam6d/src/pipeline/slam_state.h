@@ -73,7 +73,8 @@ struct SlamState {
   std::size_t num_of_earlier_run = 0; ///< number of scans registered by an earlier run
   std::size_t next = 0;               ///< first unregistered scan
   std::size_t improved = 0;           ///< number of scans at the last relaxation
-  bool is_order_tried = false;        ///< the order of the scans is only a trial
+  std::size_t adjusted = 0; ///< number of scans at the last adjustment to refined links
+  bool is_order_tried = false; ///< the order of the scans is only a trial
   KnownPlaces
       pieces; ///< of a trial: poses of lost scans in pieces matched with each other
   KnownPlaces

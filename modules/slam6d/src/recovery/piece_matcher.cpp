@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "matching/sequence_matcher.h"
 #include "recovery/piece_matcher.h"
 #include "registered.h"
 
@@ -70,6 +71,7 @@ PieceMatcher::follow(std::size_t i)
   scan.T_world_scan =
       extrapolateOdometry(before.T_world_scan, before.initial_pose, scan.initial_pose);
   scan.rejections.clear();
+  matcher_->setHoldsOpenDirections(hasGivenPoses(own_));
   matcher_->match(scans_.reduced()[i],
                   scans_.measured()[i],
                   before.initial_pose.inverse() * scan.initial_pose,

@@ -38,14 +38,23 @@ isConfirmed(const MapVerification& map, std::size_t scan)
          });
 }
 
+/** Marks a scan as lost, with the reason. */
+void
+lose(RejectReason reason, ScanResult& scan)
+{
+  scan.state = ScanState::kPredicted;
+  scan.recovered = RecoveredBy::kNone;
+  scan.covariance.reset();
+  scan.rejections = {reason};
+}
+
 /** \return the scans to be disconnected from the map */
 std::vector<std::size_t>
 disconnectedScans(std::size_t keeps, const Slam6DResult& result)
 {
   std::vector<std::size_t> loose;
   for (std::size_t i = std::max<std::size_t>(1, keeps); i < result.scans.size(); ++i)
-    if (isRegistered(result.scans[i]) && !isHeld(result.scans[i]) &&
-        !isWithFirst(result, i))
+    if (isInMap(result.scans[i]) && !isHeld(result.scans[i]) && !isWithFirst(result, i))
       loose.push_back(i);
   return loose;
 }
@@ -65,9 +74,9 @@ hasDisconnected(const Slam6DResult& result)
 {
   if (!result.verification || result.verification->trust != MapTrust::kDoubtful)
     return false;
-  const std::vector<bool> in_map = areInMap(result);
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    if (in_map[i] && !isHeld(result.scans[i]) && !result.verification->scans[i].tied)
+    if (isInMap(result.scans[i]) && !isHeld(result.scans[i]) &&
+        !result.verification->scans[i].tied)
       return true;
   return false;
 }
@@ -75,21 +84,26 @@ hasDisconnected(const Slam6DResult& result)
 bool
 isMostlyDisconnected(std::size_t keeps, const Slam6DResult& result)
 {
-  const std::vector<bool> registered = areRegistered(result);
-  const auto count = std::count(registered.begin(), registered.end(), true);
+  const auto count = std::count_if(result.scans.begin(), result.scans.end(), isInMap);
   return 2 * disconnectedScans(keeps, result).size() > static_cast<std::size_t>(count);
 }
 
 void
 disconnect(std::size_t keeps, Slam6DResult& result)
 {
-  for (const std::size_t i : disconnectedScans(keeps, result)) {
-    ScanResult& scan = result.scans[i];
-    scan.state = ScanState::kPredicted;
-    scan.recovered = RecoveredBy::kNone;
-    scan.covariance.reset();
-    scan.rejections = {RejectReason::kInconsistentPose};
-  }
+  for (const std::size_t i : disconnectedScans(keeps, result))
+    lose(RejectReason::kInconsistentPose, result.scans[i]);
+}
+
+void
+disconnectPieces(Slam6DResult& result)
+{
+  for (std::size_t i = 0; i < result.scans.size(); ++i)
+    if (result.scans[i].recovered == RecoveredBy::kBeside) {
+      lose(RejectReason::kNoConsistentLink, result.scans[i]);
+      auto& floating = result.floating;
+      floating.erase(std::remove(floating.begin(), floating.end(), i), floating.end());
+    }
 }
 
 bool
@@ -108,6 +122,17 @@ isUnconfirmed(const Slam6DResult& result, std::size_t scan)
          !isConfirmed(*result.verification, scan);
 }
 
+void
+takeFinalPose(std::size_t scan, Slam6DResult& result)
+{
+  const Eigen::Isometry3d& pose = result.scans[scan].T_world_scan;
+  if (scan < result.graph.poses.size())
+    result.graph.poses[scan] = pose;
+  for (StageResult& stage : result.stages)
+    if (!stage.history.empty() && scan < stage.history.back().size())
+      stage.history.back()[scan] = pose;
+}
+
 bool
 returnUnconfirmed(std::size_t keeps, Slam6DResult& result)
 {
@@ -118,20 +143,12 @@ returnUnconfirmed(std::size_t keeps, Slam6DResult& result)
     ScanResult& scan = result.scans[i];
     const bool is_unconfirmed = isUnconfirmed(result, i);
     is_moved[i] = is_unconfirmed || (is_moved[i - 1] && !isRegistered(scan));
-    if (is_unconfirmed) {
-      scan.state = ScanState::kPredicted;
-      scan.recovered = RecoveredBy::kNone;
-      scan.covariance.reset();
-      scan.rejections = {RejectReason::kNoConsistentLink};
-    }
+    if (is_unconfirmed)
+      lose(RejectReason::kNoConsistentLink, scan);
     if (!is_moved[i])
       continue;
     scan.T_world_scan = scan.matched_pose = predictedPose(result.scans, i);
-    if (i < result.graph.poses.size())
-      result.graph.poses[i] = scan.T_world_scan;
-    for (StageResult& stage : result.stages)
-      if (!stage.history.empty() && i < stage.history.back().size())
-        stage.history.back()[i] = scan.T_world_scan;
+    takeFinalPose(i, result);
   }
   const auto isOfMoved = [&](const auto& link) {
     return is_moved[link.from] || is_moved[link.to];

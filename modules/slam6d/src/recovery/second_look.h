@@ -24,6 +24,11 @@ isMostlyDisconnected(std::size_t keeps, const Slam6DResult& result);
 void
 disconnect(std::size_t keeps, Slam6DResult& result);
 
+/** \brief Marks the scans of pieces beside the map as lost: their place is that of the odometry, and
+ * further scans must not be matched with them. */
+void
+disconnectPieces(Slam6DResult& result);
+
 /** \return the number of registered scans connected by the verification */
 std::size_t
 countConnected(const Slam6DResult& result);
@@ -45,6 +50,10 @@ isUnconfirmed(const Slam6DResult& result, std::size_t scan);
  * \return whether a scan has moved; never without given poses or verification */
 PCL6D_EXPORTS bool // exported for its test
 returnUnconfirmed(std::size_t keeps, Slam6DResult& result);
+
+/** \brief Takes the pose of a scan over into the graph and into the last poses of each stage. */
+void
+takeFinalPose(std::size_t scan, Slam6DResult& result);
 
 /** \brief Restores the matched poses of scans that were never lost. */
 void

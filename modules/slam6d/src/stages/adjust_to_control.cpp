@@ -16,7 +16,7 @@ class AdjustToControl : public Stage {
     ControlStage adjustment(state.options.control, state.options.num_threads);
     if (!state.options.verify)
       state.verification.verify(state.scans.names(), result);
-    if (adjustment.adjust(result))
+    if (adjustment.adjust(state.verification.leastFactor(), result))
       state.verification.verify(state.scans.names(), result);
     adjustment.takeCovariances(result);
     if (!state.options.verify)

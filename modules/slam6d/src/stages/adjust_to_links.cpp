@@ -30,7 +30,7 @@ class AdjustToLinks : public Stage {
   isDue(const SlamState& state) const override
   {
     return state.options.verify && state.options.relaxation &&
-           num_adjusted_ < state.size() && state.result.verification && state.map &&
+           state.adjusted < state.size() && state.result.verification && state.map &&
            state.map->matcher().refines();
   }
 
@@ -41,7 +41,7 @@ class AdjustToLinks : public Stage {
     Slam6DResult& result = state.result;
     const MapTrust trust = result.verification->trust;
     const std::size_t num_connected = countConnected(result);
-    num_adjusted_ = state.size();
+    state.adjusted = state.size();
     Poses poses = adjustedToLinks(posesOf(result),
                                   *result.verification,
                                   result.parameters.voxel.value,
@@ -70,8 +70,6 @@ class AdjustToLinks : public Stage {
     result.stages.push_back(std::move(stage));
     return StageEnd::kDone;
   }
-
-  std::size_t num_adjusted_ = 0; ///< number of scans at the last time
 };
 } // namespace
 

@@ -2,12 +2,14 @@
 #include "../registered.h"
 #include "graph/graph_stage.h"
 #include "matching/sequence_matcher.h"
+#include "recovery/second_look.h"
 #include "stages.h"
 
 #include <pcl6d/common/components.h>
 
 #include <algorithm>
-#include <utility>
+#include <cstddef>
+#include <vector>
 
 namespace pcl6d::slam6d {
 
@@ -58,8 +60,9 @@ placeWith(std::size_t first, std::size_t scan, SlamState& state)
   placed.T_world_scan = state.result.scans[first].T_world_scan *
                         state.beside[first]->T_group_scan.inverse() *
                         state.beside[scan]->T_group_scan;
-  placed.state = ScanState::kMatched;
-  placed.recovered = RecoveredBy::kTogether;
+  placed.state =
+      placed.status == Status::kOk ? ScanState::kMatched : ScanState::kUnconverged;
+  placed.recovered = RecoveredBy::kBeside;
   placed.rejections.clear();
 }
 
@@ -67,10 +70,10 @@ placeWith(std::size_t first, std::size_t scan, SlamState& state)
  * lost scans behind a piece.
  * \param[in] lost the scans before any piece was registered */
 void
-place(const Firsts& firsts,
-      const Pieces& pieces,
-      const std::vector<ScanResult>& lost,
-      SlamState& state)
+placePieces(const Firsts& firsts,
+            const Pieces& pieces,
+            const std::vector<ScanResult>& lost,
+            SlamState& state)
 {
   Slam6DResult& result = state.result;
   std::vector<bool> is_of_piece(state.size(), false), is_moved(state.size(), false);
@@ -90,8 +93,7 @@ place(const Firsts& firsts,
     else
       state.predict(i);
     scan.matched_pose = scan.T_world_scan;
-    if (i < result.graph.poses.size())
-      result.graph.poses[i] = scan.T_world_scan;
+    takeFinalPose(i, result);
   }
 }
 
@@ -113,9 +115,9 @@ class RegisterPieces : public Stage {
     for (const auto& piece : pieces)
       for (const std::size_t i : piece)
         parts.join(piece.front(), i);
-    place(parts.firsts(), pieces, lost, state);
+    placePieces(parts.firsts(), pieces, lost, state);
     state.verification.verify(state.scans.names(), state.result);
-    place(confirmedParts(state), pieces, lost, state);
+    placePieces(confirmedParts(state), pieces, lost, state);
     state.verification.verify(state.scans.names(), state.result);
     return countRegistered(pieces, state.result) > 0 ? StageEnd::kDone
                                                      : StageEnd::kReverted;

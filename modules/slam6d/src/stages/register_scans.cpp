@@ -2,6 +2,7 @@
 #include "../registered.h"
 #include "../task_names.h"
 #include "recovery/piece_matcher.h"
+#include "recovery/second_look.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -37,6 +38,8 @@ public:
   {
     takeInEarlier(state);
     const std::size_t total = state.size();
+    if (state.next < total)
+      disconnectPieces(state.result);
     PieceMatcher pieces(
         state.options, state.result.parameters, state.scans, state.recovery);
     state.breaks = 0;

@@ -47,6 +47,8 @@ class RelaxGraph : public Stage {
   finish(SlamState& state, const SlamContext&) override
   {
     state.improved = state.size();
+    state.adjusted = 0;
+    state.verification.forgetVariance();
     state.keepInPlane();
   }
 };

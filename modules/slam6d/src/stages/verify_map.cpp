@@ -8,7 +8,6 @@ class VerifyMap : public Stage {
   StageEnd
   run(SlamState& state, SlamContext&) override
   {
-    state.verification.forgetVariance();
     if (state.options.verify)
       state.verification.verify(state.scans.names(), state.result);
     else

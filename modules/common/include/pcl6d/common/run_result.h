@@ -70,10 +70,12 @@ enum class RecoveredBy {
   kMotion,     ///< the motion of the scans before was carried on
   kSearch,     ///< around the pose predicted from the odometry
   kEverywhere, ///< among all scans nearby, by place recognition
-  kTogether ///< in one piece with the scans before and after, matched among themselves
+  kTogether, ///< in one piece with the scans before and after, matched among themselves
+  kBeside ///< not in the map: matched with scans of a piece beside the map, whose place is
+          ///< that of the odometry
 };
 
-/** \return "", "motion", "search", "everywhere" or "together" */
+/** \return "", "motion", "search", "everywhere", "together" or "beside" */
 const char*
 toString(RecoveredBy by);
 /** \throws BadArgument unknown name */

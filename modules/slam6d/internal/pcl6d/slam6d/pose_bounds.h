@@ -45,11 +45,13 @@ boundPoses(const std::vector<Eigen::Isometry3d>& T_world_scan,
  * used by boundPoses(). Covariances are multiplied by the largest squared shift from a pose to the
  * optimum of the links, in standard deviations per degree of freedom, if above 1: weakly
  * constrained scans keep moving when surface shifts are followed.
+ * \param[in] least_factor as of boundPoses()
  * \return the graph of all scans; scans disconnected from the first scan have no links \throws
  * BadArgument number of poses and of scans differ \ingroup slam6d */
 PoseGraph
 linksOfMap(const std::vector<Eigen::Isometry3d>& T_world_scan,
            const MapVerification& map,
-           unsigned int num_threads = 0);
+           unsigned int num_threads = 0,
+           double least_factor = 1);
 
 } // namespace pcl6d

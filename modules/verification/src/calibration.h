@@ -76,7 +76,7 @@ constexpr double kEvenShare = 0.015, kEvenFree = 1, kEvenConfirmed = 19;
  * places 19 are found, with 0.002 it was 8, and one more right map is cut, whose scans hardly
  * overlap. All constants of cuts, fitted to all sensors except one and tested with that sensor (363
  * runs, seventeen sensors, share/doc/trust.md), miss 5 of 25 wrong places and cut 11 right maps; the
- * constants in use miss 4 and cut 4: kept. */
+ * constants in use miss 4 and cut 4, with refined parts 3 and 4: kept. */
 constexpr double kCutPrecision = 80, kLeastCutBackground = 0.0005;
 
 /** Weight [patches] of the rest of the map in the background of a link across a cut, beside the

@@ -70,7 +70,9 @@ Observer::look(const Points& places, const std::vector<float>& deviations) const
   for (std::size_t k = 0; k < places.size(); ++k) {
     seen.emplace_back(T_observer_observed_ * places[k]);
     const float sigma = sigmaOf(places[k], seen.back());
-    sigmas.push_back(deviations.empty() ? sigma : std::hypot(sigma, deviations[k]));
+    sigmas.push_back(deviations.empty()
+                         ? sigma
+                         : std::sqrt(sigma * sigma + deviations[k] * deviations[k]));
   }
   return observer_->rays->look(seen, sigmas);
 }
